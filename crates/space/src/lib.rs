@@ -1,0 +1,15 @@
+//! `space`: the ground every other room stands on.
+//!
+//! Real numbers in two precisions, vectors, the boundaries of space, shapes and rays, the neighbour
+//! search, random draws that depend on their purpose alone, and the read-only [`Frame`] of columns that metrics,
+//! recorders and pages read. It knows no model, no file and no clock.
+
+pub mod lanes;
+pub mod random;
+mod real;
+pub mod shape;
+mod vector;
+pub mod voronoi;
+
+pub use real::Real;
+pub use vector::Vector;
