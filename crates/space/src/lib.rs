@@ -4,12 +4,20 @@
 //! search, random draws that depend on their purpose alone, and the read-only [`Frame`] of columns that metrics,
 //! recorders and pages read. It knows no model, no file and no clock.
 
+pub mod boundary;
+mod frame;
+pub mod grid;
 pub mod lanes;
+pub mod obstacles;
+pub mod parallel;
 pub mod random;
 mod real;
 pub mod shape;
 mod vector;
 pub mod voronoi;
 
+pub use boundary::{Edge, Space};
+pub use frame::{Column, ColumnKind, Columns, Frame, GroupRange, PADDING};
+pub use grid::{Grid, LiveGrid};
 pub use real::Real;
 pub use vector::Vector;

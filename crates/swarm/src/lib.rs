@@ -1,1 +1,17 @@
-//! s
+//! `swarm`: the five stages, the models, bodies and robots, resources, the world and its engine.
+//!
+//! A step reads as the data flow: world -> sensing -> detection -> selection -> motion -> physics -> world'.
+//! It knows no file and no screen.
+
+pub mod card;
+pub mod detection;
+pub mod engine;
+pub mod models;
+pub mod motion;
+pub mod parameters;
+pub mod physics;
+pub mod resources;
+pub mod selection;
+pub mod sensing;
+
+pub use engine::{Driver, Group, World, WorldError, WorldPlan};

@@ -1,0 +1,1049 @@
+//! One group's way through the stages: chosen once, called once per block of agents.
+
+use crate::motion::{
+    Around, Draws, Injected, LaneSums, Me, MeLanes, Model, Motion, NearItem, NearObstacle, Other, Percepts, Start,
+    Stream, Summed, WIDEST, splat,
+};
+use crate::parameters::Scalar;
+use crate::physics::Mobility;
+use crate::resources::Resources;
+use crate::selection::{self, Candidates, NamedSet, Reach};
+use crate::sensing::Ideal;
+use crate::sensing::robot::{Memory, Robot, RobotScratch};
+use core::ops::Range;
+use space::lanes::{Lanes, Mask, Task, level, with_lanes};
+use space::obstacles::Obstacles;
+use space::parallel::Shared;
+use space::random::{Purpose, Stream as DrawStream};
+use space::shape::Shape;
+use space::{Columns, Edge, Grid, LiveGrid, PADDING, Real, Space, Vector};
+
+/// How neighbours are found.
+#[derive(Clone, Copy)]
+pub(crate) enum Index<'a, R, const D: usize> {
+    /// All pairs, in the order of rows.
+    Pairs,
+    /// Rows sorted by cell.
+    Sorted(&'a Grid<R, D>),
+    /// Cells that follow the rows.
+    Live(&'a LiveGrid<R, D>),
+}
+
+/// The frozen world that a step reads.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'a, R, const D: usize> {
+    pub(crate) now: &'a Columns<R, D>,
+    /// What is seen of others: `now`, or an older moment where readings are stale.
+    pub(crate) others: &'a Columns<R, D>,
+    /// Unit headings of `now`, where a streaming law uses them.
+    pub(crate) heading: &'a [Vec<R>; D],
+    pub(crate) index: Index<'a, R, D>,
+    pub(crate) space: &'a Space<R, D>,
+    pub(crate) obstacles: &'a Obstacles<R, D>,
+    pub(crate) resources: Option<&'a Resources<R, D>>,
+    /// Declared column whose zero means death.
+    pub(crate) mortality: Option<usize>,
+    /// Rows by id, where they are sorted and somebody needs it.
+    pub(crate) rows: Option<&'a [u32]>,
+    /// Body radius by group, and first ids, for occlusion and scanners.
+    pub(crate) bodies: &'a [(u32, R)],
+    pub(crate) seed: u64,
+    pub(crate) step: u64,
+    pub(crate) time: f64,
+    pub(crate) injected: Option<&'a Injected>,
+}
+
+impl<R: Scalar, const D: usize> View<'_, R, D> {
+    #[inline(always)]
+    fn dead(&self, columns: &Columns<R, D>, row: usize) -> bool {
+        self.mortality.is_some_and(|c| columns.state[c][row] <= R::ZERO)
+    }
+    pub(crate) fn body_radius(&self, id: u32) -> R {
+        let group = self.bodies.partition_point(|&(first, _)| first <= id);
+        group.checked_sub(1).map_or(R::ZERO, |g| self.bodies[g].1)
+    }
+}
+
+/// Errors of computation and execution.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MotionNoise<R> {
+    /// Standard deviation of the wanted direction, rad.
+    pub computation: R,
+    /// Standard deviation of the direction actually taken, rad.
+    pub execution_direction: R,
+    /// Standard deviation of the speed actually taken, as a share of it.
+    pub execution_speed: R,
+}
+
+/// How a group senses.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Sensing<R> {
+    /// From the state itself, within limits.
+    Ideal(Ideal<R>),
+    /// From the rays of a scanner (2-D).
+    Scanner(Box<Robot<R>>),
+}
+
+impl<R: Real> Default for Sensing<R> {
+    fn default() -> Self {
+        Self::Ideal(Ideal::default())
+    }
+}
+
+/// Everything about a group's stages that is not its law.
+pub(crate) struct Stages<R, const D: usize> {
+    pub(crate) first: u32,
+    pub(crate) count: u32,
+    /// World column of each declared column of the law, and of the body.
+    pub(crate) columns: Vec<usize>,
+    pub(crate) body_columns: Vec<usize>,
+    pub(crate) sets: Vec<NamedSet<R, D>>,
+    /// Whether the named sets are the law's own.
+    pub(crate) own_sets: bool,
+    pub(crate) reach: Reach<R>,
+    pub(crate) sensing: Sensing<R>,
+    pub(crate) obstacle_reach: Option<R>,
+    pub(crate) mobility: Mobility<R>,
+    pub(crate) noise: MotionNoise<R>,
+    pub(crate) dt: R,
+}
+
+/// Buffers of one worker.
+pub(crate) struct Scratch<R, const D: usize> {
+    row: Vec<u32>,
+    offset: [Vec<R>; D],
+    squared: Vec<R>,
+    sets: Vec<u32>,
+    chosen: Vec<bool>,
+    order: Vec<u32>,
+    selection: selection::Scratch<R, D>,
+    obstacles: Vec<NearObstacle<R, D>>,
+    sensed: Columns<R, D>,
+    /// The law's declared columns of the deciding agent: before, and after deciding.
+    pub(crate) own: Vec<R>,
+    /// Columns of its body.
+    pub(crate) body: Vec<R>,
+    pub(crate) robot: RobotScratch<R>,
+    /// Directed pairs selected, counted on request.
+    pub(crate) pairs: u64,
+    pub(crate) notes: Option<Vec<(&'static str, Vector<R, D>)>>,
+}
+
+impl<R: Scalar, const D: usize> Scratch<R, D> {
+    pub(crate) fn new(columns: usize) -> Self {
+        Self {
+            row: Vec::new(),
+            offset: core::array::from_fn(|_| Vec::new()),
+            squared: Vec::new(),
+            sets: Vec::new(),
+            chosen: Vec::new(),
+            order: Vec::new(),
+            selection: selection::Scratch::default(),
+            obstacles: Vec::new(),
+            sensed: Columns::new(0, columns),
+            own: Vec::new(),
+            body: Vec::new(),
+            robot: RobotScratch::default(),
+            pairs: 0,
+            notes: None,
+        }
+    }
+    #[inline(always)]
+    fn push(&mut self, row: u32, offset: Vector<R, D>, squared: R) {
+        self.row.push(row);
+        for a in 0..D {
+            self.offset[a].push(offset.0[a]);
+        }
+        self.squared.push(squared);
+    }
+    fn clear(&mut self) {
+        self.row.clear();
+        self.offset.iter_mut().for_each(Vec::clear);
+        self.squared.clear();
+    }
+    /// Keeps the percepts for which `keep` holds, in order.
+    fn retain(&mut self, mut keep: impl FnMut(&Self, usize) -> bool) {
+        let mut kept = 0;
+        for k in 0..self.row.len() {
+            if keep(self, k) {
+                self.row[kept] = self.row[k];
+                for a in 0..D {
+                    self.offset[a][kept] = self.offset[a][k];
+                }
+                self.squared[kept] = self.squared[k];
+                kept += 1;
+            }
+        }
+        self.row.truncate(kept);
+        self.offset.iter_mut().for_each(|o| o.truncate(kept));
+        self.squared.truncate(kept);
+    }
+    fn at(&self, k: usize) -> Vector<R, D> {
+        Vector(core::array::from_fn(|a| self.offset[a][k]))
+    }
+}
+
+/// The next state, written by several workers at disjoint rows.
+pub(crate) struct Writer<'a, R, const D: usize> {
+    /// What agents remember of their last scan, by id; empty where nobody does.
+    memory: Shared<'a, Memory<R>>,
+    position: [Shared<'a, R>; D],
+    velocity: [Shared<'a, R>; D],
+    state: Vec<Shared<'a, R>>,
+}
+
+impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
+    pub(crate) fn new(columns: &'a mut Columns<R, D>, memory: &'a mut [Memory<R>]) -> Self {
+        Self {
+            memory: Shared::new(memory),
+            position: columns.position.each_mut().map(|c| Shared::new(c)),
+            velocity: columns.velocity.each_mut().map(|c| Shared::new(c)),
+            state: columns.state.iter_mut().map(|c| Shared::new(c)).collect(),
+        }
+    }
+    /// # Safety
+    /// No other worker writes this row.
+    #[inline(always)]
+    unsafe fn write(&self, row: usize, position: Vector<R, D>, velocity: Vector<R, D>) {
+        for a in 0..D {
+            // SAFETY: the caller's promise; rows are in bounds.
+            unsafe {
+                self.position[a].write(row, position.0[a]);
+                self.velocity[a].write(row, velocity.0[a]);
+            }
+        }
+    }
+    /// # Safety
+    /// No other worker writes this row.
+    #[inline(always)]
+    unsafe fn write_state(&self, row: usize, columns: &[usize], values: &[R]) {
+        for (&column, &value) in columns.iter().zip(values) {
+            // SAFETY: the caller's promise; rows are in bounds.
+            unsafe { self.state[column].write(row, value) };
+        }
+    }
+}
+
+/// A group's law with its stages, behind the run-time door.
+pub(crate) trait Kernel<R: Scalar, const D: usize>: Send + Sync {
+    /// Stages around the law.
+    fn stages(&self) -> &Stages<R, D>;
+    /// Whether the law runs neighbour by neighbour in lanes, and then whether it wants headings.
+    fn streams(&self) -> Option<bool>;
+    /// Completes an initial state.
+    fn complete(&self, start: &mut Start<'_, R, D>);
+    /// Decides and moves this group's members among the rows.
+    fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>);
+    /// The wanted motion of one member; its columns are left in `scratch.own`.
+    fn one(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+    ) -> Motion<R, D>;
+    /// Number of others in any named set of one member, for statistics.
+    fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize;
+}
+
+impl<R: Scalar, const D: usize> Stages<R, D> {
+    #[inline(always)]
+    fn mine(&self, id: u32) -> bool {
+        id.wrapping_sub(self.first) < self.count
+    }
+    /// From the wanted to the actual motion, before contacts: the place reached and the velocity.
+    #[inline(always)]
+    pub(crate) fn perform(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        wanted: Motion<R, D>,
+        dt: R,
+        body: &mut [R],
+    ) -> (Vector<R, D>, Vector<R, D>) {
+        let (position, velocity) = (view.now.position(row), view.now.velocity(row));
+        let mut motion = wanted;
+        if !matches!(self.mobility, Mobility::Ideal) {
+            motion = self.mobility.perform(velocity, motion, dt, body);
+        }
+        let n = &self.noise;
+        if n.execution_direction > R::ZERO || n.execution_speed > R::ZERO {
+            let draws =
+                DrawStream { seed: view.seed, purpose: Purpose::Execution, step: view.step, agent: view.now.id[row] };
+            motion = turned(motion, n.execution_direction * R::of(draws.normal(0)), &draws, 4);
+            let faster = (R::ONE + n.execution_speed * R::of(draws.normal(2))).most(R::ZERO);
+            motion = Motion { velocity: motion.velocity * faster, displacement: motion.displacement * faster };
+        }
+        let place = view.space.place(position + motion.displacement);
+        // a motion that is not a number of finite size is not made
+        if place.finite() && motion.velocity.finite() { (place, motion.velocity) } else { (position, velocity) }
+    }
+    #[inline(always)]
+    fn wanted(&self, view: &View<'_, R, D>, row: usize, motion: Motion<R, D>) -> Motion<R, D> {
+        if self.noise.computation > R::ZERO {
+            let draws =
+                DrawStream { seed: view.seed, purpose: Purpose::Computation, step: view.step, agent: view.now.id[row] };
+            return turned(motion, self.noise.computation * R::of(draws.normal(0)), &draws, 2);
+        }
+        motion
+    }
+    /// Loads an agent's columns into the scratch.
+    #[inline(always)]
+    pub(crate) fn load(&self, now: &Columns<R, D>, row: usize, scratch: &mut Scratch<R, D>) {
+        scratch.own.clear();
+        scratch.own.extend(self.columns.iter().map(|&c| now.state[c][row]));
+        scratch.body.clear();
+        scratch.body.extend(self.body_columns.iter().map(|&c| now.state[c][row]));
+    }
+    /// Obstacles and walls near a place.
+    #[inline]
+    fn perceive_obstacles(&self, view: &View<'_, R, D>, place: Vector<R, D>, to: &mut Vec<NearObstacle<R, D>>) {
+        to.clear();
+        let Some(reach) = self.obstacle_reach else { return };
+        if !view.obstacles.is_empty() {
+            view.obstacles.near(place, reach, |_, shape, near| {
+                let radius = if let Shape::Ball { radius, .. } = shape { *radius } else { R::INFINITY };
+                to.push(NearObstacle { offset: near.point - place, distance: near.distance, away: near.away, radius });
+            });
+        }
+        for a in 0..D {
+            if let Edge::Walls(length) = view.space.edges[a] {
+                for (distance, sign) in [(place.0[a], R::ONE), (length - place.0[a], -R::ONE)] {
+                    if distance < reach {
+                        let away = Vector::axis(a) * sign;
+                        to.push(NearObstacle { offset: -away * distance, distance, away, radius: R::INFINITY });
+                    }
+                }
+            }
+        }
+    }
+    #[inline(always)]
+    fn around<'a>(
+        &self,
+        view: &View<'a, R, D>,
+        row: usize,
+        place: Vector<R, D>,
+        obstacles: &'a [NearObstacle<R, D>],
+    ) -> Around<'a, R, D> {
+        let item =
+            view.resources.and_then(|r| r.nearest(view.space, place)).map(|(item, offset)| NearItem { offset, item });
+        Around {
+            obstacles,
+            item,
+            truth: view.now,
+            row,
+            rows: view.rows,
+            space: view.space,
+            group: (self.first, self.count),
+        }
+    }
+    /// Fills the scratch with the detected members of one agent, with their named sets. Returns whether velocities and columns stand
+    /// in `scratch.sensed` rather than in the state.
+    #[inline(always)]
+    fn perceive<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        quick: impl FnOnce(Vector<R, D>, &[&[R]; D], &[R], &mut [u32]) -> bool,
+        memory: Option<&mut Memory<R>>,
+    ) -> bool {
+        let indirect = match &self.sensing {
+            Sensing::Ideal(ideal) => {
+                let reach = match ideal.range {
+                    Some(range) => match self.reach {
+                        Reach::Within(r) => Reach::Within(r.least(range)),
+                        // a rank among those in range
+                        _ => Reach::Within(range),
+                    },
+                    None if ideal.is_perfect() => self.reach,
+                    // errors, views and hiding change who the nearest are: look at everyone
+                    None => match self.reach {
+                        Reach::Nearest(_) => Reach::All,
+                        reach => reach,
+                    },
+                };
+                self.candidates::<L>(view, row, reach, scratch);
+                if ideal.is_perfect() { false } else { self.limit(ideal, view, row, scratch) }
+            }
+            Sensing::Scanner(robot) => {
+                self.scan(robot, view, row, scratch, memory);
+                true
+            }
+        };
+        let count = scratch.row.len();
+        scratch.sets.clear();
+        scratch.sets.resize(count, 0);
+        let heading = view.now.velocity(row).unit();
+        let offset = core::array::from_fn(|a| scratch.offset[a].as_slice());
+        if self.own_sets && quick(heading, &offset, &scratch.squared, &mut scratch.sets) {
+            return indirect;
+        }
+        let candidates = Candidates {
+            offset,
+            squared: &scratch.squared,
+            row: &scratch.row,
+            others: if indirect { &scratch.sensed } else { view.others },
+            heading,
+            member: (view.now.id[row] - self.first) as usize,
+        };
+        for (s, set) in self.sets.iter().enumerate() {
+            scratch.chosen.clear();
+            scratch.chosen.resize(count, true);
+            candidates.select(&set.perception, &mut scratch.chosen, &mut scratch.selection);
+            for (bits, &chosen) in scratch.sets.iter_mut().zip(&scratch.chosen) {
+                *bits |= u32::from(chosen) << s;
+            }
+        }
+        indirect
+    }
+    /// Others that can matter, in canonical order.
+    #[inline(always)]
+    fn candidates<L: Lanes<R>>(&self, view: &View<'_, R, D>, row: usize, reach: Reach<R>, scratch: &mut Scratch<R, D>) {
+        scratch.clear();
+        let place = view.now.position(row);
+        match reach {
+            Reach::Within(radius) => self.within::<L>(view, row, place, radius, scratch),
+            Reach::All => self.pairs::<L>(view, row, place, R::INFINITY, scratch),
+            Reach::Nearest(count) => {
+                let Index::Sorted(grid) = view.index else {
+                    return self.pairs::<L>(view, row, place, R::INFINITY, scratch);
+                };
+                // rings of growing radius: whoever is among the nearest lies inside the first that holds enough
+                let mut radius = grid.spacing();
+                for _ in 0..64 {
+                    scratch.clear();
+                    let asked = grid.within(view.others, place, radius, |other, offset, squared| {
+                        if other as usize != row && !view.dead(view.others, other as usize) {
+                            scratch.push(other, offset, squared);
+                        }
+                    });
+                    if !asked {
+                        break;
+                    }
+                    if scratch.row.len() >= count {
+                        return;
+                    }
+                    radius *= R::of(if scratch.row.is_empty() { 2.0 } else { 1.4 });
+                }
+                scratch.clear();
+                self.pairs::<L>(view, row, place, R::INFINITY, scratch);
+            }
+        }
+        let _ = place;
+    }
+    #[inline(always)]
+    fn within<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        place: Vector<R, D>,
+        radius: R,
+        scratch: &mut Scratch<R, D>,
+    ) {
+        let mut visit = |other: u32, offset: Vector<R, D>, squared: R| {
+            if other as usize != row && !view.dead(view.others, other as usize) {
+                scratch.push(other, offset, squared);
+            }
+        };
+        let found = match view.index {
+            Index::Pairs => false,
+            Index::Sorted(grid) => grid.within(view.others, place, radius, &mut visit),
+            Index::Live(grid) => grid.within(view.others, place, radius, &mut visit),
+        };
+        if !found {
+            self.pairs::<L>(view, row, place, radius, scratch);
+        }
+    }
+    /// All pairs: several others at a time, each tested by itself.
+    #[inline(always)]
+    fn pairs<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        place: Vector<R, D>,
+        radius: R,
+        scratch: &mut Scratch<R, D>,
+    ) {
+        let n = view.others.len();
+        let limit = L::splat(radius * radius);
+        let me: [L; D] = splat(place);
+        scratch.row.reserve(n);
+        let mut first = 0;
+        while first < n {
+            let offset = lane_offsets::<R, L, D>(view, first, &me);
+            let squared = crate::motion::dot(&offset, &offset);
+            let mut bits = squared.less(limit).bits() & mask_of(n - first);
+            if row >= first && row < first + L::WIDTH {
+                bits &= !(1 << (row - first));
+            }
+            if bits != 0 {
+                let mut squares = [R::ZERO; WIDEST];
+                squared.store(&mut squares);
+                let mut parts = [[R::ZERO; WIDEST]; D];
+                for a in 0..D {
+                    offset[a].store(&mut parts[a]);
+                }
+                while bits != 0 {
+                    let k = bits.trailing_zeros() as usize;
+                    bits &= bits - 1;
+                    if !view.dead(view.others, first + k) {
+                        scratch.push((first + k) as u32, Vector(core::array::from_fn(|a| parts[a][k])), squares[k]);
+                    }
+                }
+            }
+            first += L::WIDTH;
+        }
+    }
+    /// The limits and errors of ideal sensing. Returns whether others' velocities were changed too.
+    fn limit(&self, ideal: &Ideal<R>, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> bool {
+        let id = view.now.id[row];
+        let draws = DrawStream { seed: view.seed, purpose: Purpose::Sensing, step: view.step, agent: id };
+        if let Some(opening) = ideal.field_of_view {
+            let heading = view.now.velocity(row).unit();
+            let limit = crate::sensing::cos_half(opening);
+            scratch.retain(|s, k| crate::motion::in_view::<R, R, D>(&heading.0, &s.at(k).0, s.squared[k], limit));
+        }
+        if ideal.occlusion {
+            self.hide(view, row, scratch);
+        }
+        let noise = &ideal.noise;
+        if noise.miss > R::ZERO {
+            let miss = noise.miss.to_f64();
+            scratch.retain(|s, k| draws.uniform_about(view.others.id[s.row[k] as usize], 0) >= miss);
+        }
+        if noise.distance > R::ZERO || noise.direction > R::ZERO {
+            for k in 0..scratch.row.len() {
+                let j = view.others.id[scratch.row[k] as usize];
+                let farther = (R::ONE + noise.distance * R::of(draws.normal_about(j, 1))).most(R::ZERO);
+                let offset = scratch.at(k);
+                let aside = noise.direction * R::of(draws.normal_about(j, 3));
+                let direction = offset.unit().turned_by(aside, R::of(draws.uniform_about(j, 7)) * R::TAU);
+                let seen = direction * (offset.length() * farther);
+                for a in 0..D {
+                    scratch.offset[a][k] = seen.0[a];
+                }
+                scratch.squared[k] = seen.length_squared();
+            }
+        }
+        if noise.heading > R::ZERO {
+            self.copy_sensed(view, scratch);
+            for k in 0..scratch.row.len() {
+                let j = scratch.sensed.id[k];
+                let aside = noise.heading * R::of(draws.normal_about(j, 5));
+                let velocity = scratch.sensed.velocity(k);
+                let turned =
+                    velocity.unit().turned_by(aside, R::of(draws.uniform_about(j, 7)) * R::TAU) * velocity.length();
+                scratch.sensed.set_velocity(k, turned);
+                scratch.row[k] = k as u32;
+            }
+            return true;
+        }
+        false
+    }
+    /// Copies what is shown of the detected members into the scratch, so that it may be changed.
+    fn copy_sensed(&self, view: &View<'_, R, D>, scratch: &mut Scratch<R, D>) {
+        let count = scratch.row.len();
+        scratch.make_room(count);
+        for k in 0..count {
+            let row = scratch.row[k] as usize;
+            scratch.sensed.id[k] = view.others.id[row];
+            scratch.sensed.set_position(k, view.others.position(row));
+            scratch.sensed.set_velocity(k, view.others.velocity(row));
+            for (to, from) in scratch.sensed.state.iter_mut().zip(&view.others.state) {
+                to[k] = from[row];
+            }
+        }
+    }
+    /// Drops members hidden behind nearer bodies or opaque obstacles.
+    fn hide(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) {
+        let place = view.now.position(row);
+        let count = scratch.row.len();
+        scratch.order.clear();
+        scratch.order.extend(0..count as u32);
+        let squared = &scratch.squared;
+        scratch.order.sort_unstable_by(|&a, &b| {
+            let (x, y) = (squared[a as usize], squared[b as usize]);
+            x.partial_cmp(&y).unwrap_or(core::cmp::Ordering::Equal).then(a.cmp(&b))
+        });
+        scratch.chosen.clear();
+        scratch.chosen.resize(count, true);
+        for n in 0..count {
+            let k = scratch.order[n] as usize;
+            let to = scratch.at(k);
+            let far = scratch.squared[k];
+            let hidden = scratch.order[..n].iter().any(|&m| {
+                let other = scratch.at(m as usize);
+                let radius = view.body_radius(view.others.id[scratch.row[m as usize] as usize]);
+                let along = (other.dot(to) / far.most(R::TINY)).clamped(R::ZERO, R::ONE);
+                scratch.squared[m as usize] < far && (other - to * along).length_squared() < radius * radius
+            });
+            let walled = !hidden && !view.obstacles.is_empty() && view.obstacles.hides(place, place + to);
+            scratch.chosen[k] = !(hidden || walled);
+        }
+        let chosen = core::mem::take(&mut scratch.chosen);
+        scratch.retain(|_, k| chosen[k]);
+        scratch.chosen = chosen;
+    }
+    /// Sensing by rays and detection among the readings.
+    fn scan(
+        &self,
+        robot: &Robot<R>,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+    ) {
+        let place = view.now.position(row);
+        self.candidates::<R>(view, row, Reach::Within(robot.scanner_range() + robot.widest_body), scratch);
+        scratch.robot.bodies.clear();
+        for k in 0..scratch.row.len() {
+            let other = scratch.row[k] as usize;
+            let id = view.others.id[other];
+            scratch.robot.add_body(scratch.at(k), view.body_radius(id), id);
+        }
+        let facing = match (&self.mobility, self.body_columns.first()) {
+            (Mobility::DifferentialDrive(_), Some(&column)) => view.now.state[column][row],
+            _ => view.now.velocity(row).angle(),
+        };
+        let draws = DrawStream { seed: view.seed, purpose: Purpose::Sensing, step: view.step, agent: view.now.id[row] };
+        robot.detect(view.obstacles, view.space, place, facing, &draws, view.time, &mut scratch.robot, memory);
+        scratch.clear();
+        let found = scratch.robot.found.len();
+        scratch.make_room(found);
+        for k in 0..found {
+            let input = scratch.robot.found[k];
+            let offset: Vector<R, D> = Vector::of(&[input.offset.0[0].to_f64(), input.offset.0[1].to_f64()]);
+            let velocity: Vector<R, D> = Vector::of(&[input.velocity.0[0].to_f64(), input.velocity.0[1].to_f64()]);
+            scratch.push(k as u32, offset, offset.length_squared());
+            scratch.sensed.id[k] = k as u32;
+            scratch.sensed.set_position(k, place + offset);
+            scratch.sensed.set_velocity(k, velocity);
+            for column in &mut scratch.sensed.state {
+                column[k] = R::ZERO;
+            }
+        }
+    }
+}
+
+impl<R: Scalar, const D: usize> Scratch<R, D> {
+    fn make_room(&mut self, count: usize) {
+        if self.sensed.id.len() < count + PADDING {
+            self.sensed = Columns::new(2 * count, self.sensed.state.len());
+        }
+    }
+}
+
+/// A motion turned by an angle (about a drawn axis in three dimensions).
+fn turned<R: Scalar, const D: usize>(motion: Motion<R, D>, angle: R, draws: &DrawStream, slot: u32) -> Motion<R, D> {
+    let axis = if D == 3 { R::of(draws.uniform(slot)) * R::TAU } else { R::ZERO };
+    let turn = |v: Vector<R, D>| v.unit().turned_by(angle, axis) * v.length();
+    Motion { velocity: turn(motion.velocity), displacement: turn(motion.displacement) }
+}
+
+/// The first `count` lanes as bits.
+#[inline(always)]
+fn mask_of(count: usize) -> u32 {
+    if count >= 32 { u32::MAX } else { (1u32 << count) - 1 }
+}
+
+/// Offsets from `me` to the `WIDTH` rows from `first` on, by minimum image.
+#[inline(always)]
+fn lane_offsets<R: Scalar, L: Lanes<R>, const D: usize>(view: &View<'_, R, D>, first: usize, me: &[L; D]) -> [L; D] {
+    core::array::from_fn(|a| {
+        let offset = L::load(&view.others.position[a][first..]) - me[a];
+        minimal_lanes(view.space, a, offset)
+    })
+}
+
+#[inline(always)]
+fn minimal_lanes<R: Scalar, L: Lanes<R>, const D: usize>(space: &Space<R, D>, axis: usize, d: L) -> L {
+    if let Edge::Periodic(length) = space.edges[axis] {
+        let (length, half) = (L::splat(length), L::splat(length * R::HALF));
+        let above = half.less_equal(d);
+        let below = d.less(-half);
+        L::choose(above, d - length, L::choose(below, d + length, d))
+    } else {
+        d
+    }
+}
+
+/// A law that is given lists of percepts.
+pub(crate) struct Listed<M, R, const D: usize> {
+    pub(crate) law: M,
+    pub(crate) stages: Stages<R, D>,
+}
+
+impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
+    fn remembers(&self) -> bool {
+        matches!(&self.stages.sensing, Sensing::Scanner(robot) if robot.association.is_some())
+    }
+
+    #[inline(always)]
+    fn decide<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+    ) -> Motion<R, D> {
+        let stages = &self.stages;
+        let quick = |heading: Vector<R, D>, offset: &[&[R]; D], squared: &[R], sets: &mut [u32]| {
+            self.law.select(heading, offset, squared, sets)
+        };
+        let indirect = stages.perceive::<L>(view, row, scratch, quick, memory);
+        let position = view.now.position(row);
+        let mut obstacles = core::mem::take(&mut scratch.obstacles);
+        if let (Sensing::Scanner(_), Some(reach)) = (&stages.sensing, stages.obstacle_reach) {
+            obstacles.clear();
+            obstacles.extend(scratch.robot.obstacles(reach));
+        } else {
+            stages.perceive_obstacles(view, position, &mut obstacles);
+        }
+        stages.load(view.now, row, scratch);
+        let seen = Percepts {
+            offset: core::array::from_fn(|a| scratch.offset[a].as_slice()),
+            squared: &scratch.squared,
+            row: &scratch.row,
+            sets: &scratch.sets,
+            others: if indirect { &scratch.sensed } else { view.others },
+            columns: &stages.columns,
+        };
+        let draws = Draws::new(view.seed, view.step, view.now.id[row], view.injected);
+        let mut me = Me {
+            id: view.now.id[row],
+            position,
+            velocity: view.now.velocity(row),
+            own: &mut scratch.own,
+            around: stages.around(view, row, position, &obstacles),
+            notes: scratch.notes.as_mut(),
+        };
+        let motion = self.law.decide(&mut me, &seen, &draws);
+        scratch.obstacles = obstacles;
+        stages.wanted(view, row, motion)
+    }
+
+    #[inline(always)]
+    fn sweep_lanes<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        rows: Range<usize>,
+        out: &Writer<'_, R, D>,
+        scratch: &mut Scratch<R, D>,
+    ) {
+        for row in rows {
+            if !self.stages.mine(view.now.id[row]) {
+                continue;
+            }
+            if view.dead(view.now, row) {
+                // SAFETY: rows of one sweep are written by it alone.
+                unsafe { out.write(row, view.now.position(row), view.now.velocity(row)) };
+                continue;
+            }
+            let id = view.now.id[row] as usize;
+            let memory = if self.remembers() {
+                // SAFETY: an agent's memory is touched by the sweep of its row alone.
+                unsafe { out.memory.part(id..id + 1) }.first_mut()
+            } else {
+                None
+            };
+            let wanted = self.decide::<L>(view, row, scratch, memory);
+            let mut body = core::mem::take(&mut scratch.body);
+            let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &mut body);
+            // SAFETY: as above.
+            unsafe {
+                out.write(row, place, velocity);
+                out.write_state(row, &self.stages.columns, &scratch.own);
+                out.write_state(row, &self.stages.body_columns, &body);
+            }
+            scratch.body = body;
+        }
+    }
+}
+
+struct SweepListed<'a, 'b, M, R, const D: usize> {
+    kernel: &'a Listed<M, R, D>,
+    view: &'a View<'b, R, D>,
+    rows: Range<usize>,
+    out: &'a Writer<'b, R, D>,
+    scratch: &'a mut Scratch<R, D>,
+}
+
+impl<R: Scalar, const D: usize, M: Model<R, D>> Task<R> for SweepListed<'_, '_, M, R, D> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) {
+        self.kernel.sweep_lanes::<L>(self.view, self.rows, self.out, self.scratch);
+    }
+}
+
+impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D> {
+    fn stages(&self) -> &Stages<R, D> {
+        &self.stages
+    }
+    fn streams(&self) -> Option<bool> {
+        None
+    }
+    fn complete(&self, start: &mut Start<'_, R, D>) {
+        self.law.complete(start);
+    }
+    fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>) {
+        with_lanes(level(), SweepListed { kernel: self, view, rows, out, scratch });
+    }
+    fn one(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+    ) -> Motion<R, D> {
+        self.decide::<R>(view, row, scratch, memory)
+    }
+    fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
+        self.stages.perceive::<R>(view, row, scratch, |_, _, _, _| false, None);
+        scratch.sets.iter().filter(|&&bits| bits != 0).count()
+    }
+}
+
+/// A law that sums neighbour by neighbour: several agents at a time against neighbours in canonical order.
+pub(crate) struct Streamed<M, R, const D: usize> {
+    pub(crate) listed: Listed<Summed<M>, R, D>,
+}
+
+impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
+    fn law(&self) -> &M {
+        &self.listed.law.0
+    }
+    /// Whether the stages around the law are the ones it streams through.
+    fn direct(&self) -> bool {
+        let stages = &self.listed.stages;
+        stages.own_sets && matches!(&stages.sensing, Sensing::Ideal(ideal) if ideal.is_perfect())
+    }
+
+    #[inline(always)]
+    fn other<'a>(&'a self, view: &View<'a, R, D>, row: usize) -> Other<'a, R, D> {
+        Other {
+            velocity: view.others.velocity(row),
+            heading: if M::HEADINGS { Vector(core::array::from_fn(|a| view.heading[a][row])) } else { Vector::ZERO },
+            row,
+            others: view.others,
+            columns: &self.listed.stages.columns,
+        }
+    }
+
+    /// Adds the neighbours of one run of rows to the sums of a block.
+    #[inline(always)]
+    fn meet<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        block: &Block<L, D>,
+        rows: Range<usize>,
+        offset_to: impl Fn(usize) -> [L; D],
+        sums: &mut M::Sums<L>,
+    ) {
+        let limit = L::splat(self.law().reach() * self.law().reach());
+        for j in rows {
+            if view.dead(view.others, j) {
+                continue;
+            }
+            let offset = offset_to(j);
+            let squared = crate::motion::dot(&offset, &offset);
+            let mut near = squared.less(limit);
+            if j.wrapping_sub(block.first) < L::WIDTH {
+                near = near.and(L::Mask::from_bits(!(1u32 << (j - block.first))));
+            }
+            if !near.any() {
+                continue;
+            }
+            let other = self.other(view, j);
+            let sets = self.law().classify::<L>(&block.me, &offset, squared, &other).map(|set| set.and(near));
+            self.law().gather::<L>(sums, &block.me, &offset, squared, &other, &sets);
+        }
+    }
+
+    #[inline(always)]
+    fn sweep_lanes<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        rows: Range<usize>,
+        out: &Writer<'_, R, D>,
+        scratch: &mut Scratch<R, D>,
+    ) {
+        let mut row = rows.start;
+        let mut line = match view.index {
+            Index::Sorted(grid) if row < rows.end => grid.line_at(row),
+            _ => 0,
+        };
+        while row < rows.end {
+            let mut count = (rows.end - row).min(L::WIDTH);
+            if let Index::Sorted(grid) = view.index {
+                while grid.line(line).end <= row {
+                    line += 1;
+                }
+                count = count.min(grid.line(line).end - row);
+                count = grid.together(view.now, row, count);
+            }
+            let place: [L; D] = core::array::from_fn(|a| L::load(&view.now.position[a][row..]));
+            let velocity: [L; D] = core::array::from_fn(|a| L::load(&view.now.velocity[a][row..]));
+            let heading =
+                if M::HEADINGS { core::array::from_fn(|a| L::load(&view.heading[a][row..])) } else { velocity };
+            let block = Block { first: row, me: MeLanes { velocity, heading } };
+            let mut sums = M::Sums::<L>::zero();
+            match view.index {
+                Index::Sorted(grid) => grid.around(view.now, line, row..row + count, |segment| {
+                    let shift = segment.shift;
+                    let offset_to = |j: usize| {
+                        core::array::from_fn(|a| L::splat(view.others.position[a][j] + shift.0[a]) - place[a])
+                    };
+                    self.meet(view, &block, segment.first as usize..segment.end as usize, offset_to, &mut sums);
+                }),
+                _ => {
+                    let offset_to = |j: usize| {
+                        core::array::from_fn(|a| {
+                            minimal_lanes(view.space, a, L::splat(view.others.position[a][j]) - place[a])
+                        })
+                    };
+                    self.meet(view, &block, 0..view.others.len(), offset_to, &mut sums);
+                }
+            }
+            let mut each = [<M::Sums<L> as LaneSums<R, L>>::zero_one(); WIDEST];
+            sums.split(&mut each[..L::WIDTH]);
+            for k in 0..count {
+                self.finish(view, row + k, &each[k], out, scratch);
+            }
+            row += count;
+        }
+    }
+
+    #[inline(always)]
+    fn finish(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        sums: &M::Sums<R>,
+        out: &Writer<'_, R, D>,
+        scratch: &mut Scratch<R, D>,
+    ) {
+        let stages = &self.listed.stages;
+        if !stages.mine(view.now.id[row]) {
+            return;
+        }
+        if view.dead(view.now, row) {
+            // SAFETY: rows of one sweep are written by it alone.
+            unsafe { out.write(row, view.now.position(row), view.now.velocity(row)) };
+            return;
+        }
+        let wanted = self.conclude(view, row, sums, scratch);
+        let mut body = core::mem::take(&mut scratch.body);
+        let (place, velocity) = stages.perform(view, row, wanted, stages.dt, &mut body);
+        // SAFETY: as above.
+        unsafe {
+            out.write(row, place, velocity);
+            out.write_state(row, &stages.columns, &scratch.own);
+            out.write_state(row, &stages.body_columns, &body);
+        }
+        scratch.body = body;
+    }
+
+    #[inline(always)]
+    fn conclude(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        sums: &M::Sums<R>,
+        scratch: &mut Scratch<R, D>,
+    ) -> Motion<R, D> {
+        let stages = &self.listed.stages;
+        let position = view.now.position(row);
+        stages.perceive_obstacles(view, position, &mut scratch.obstacles);
+        stages.load(view.now, row, scratch);
+        let draws = Draws::new(view.seed, view.step, view.now.id[row], view.injected);
+        let mut me = Me {
+            id: view.now.id[row],
+            position,
+            velocity: view.now.velocity(row),
+            own: &mut scratch.own,
+            around: stages.around(view, row, position, &scratch.obstacles),
+            notes: scratch.notes.as_mut(),
+        };
+        let motion = self.law().finish(&mut me, sums, &draws);
+        stages.wanted(view, row, motion)
+    }
+}
+
+/// A block of consecutive agents, one per lane.
+struct Block<L, const D: usize> {
+    first: usize,
+    me: MeLanes<L, D>,
+}
+
+struct SweepStreamed<'a, 'b, M, R, const D: usize> {
+    kernel: &'a Streamed<M, R, D>,
+    view: &'a View<'b, R, D>,
+    rows: Range<usize>,
+    out: &'a Writer<'b, R, D>,
+    scratch: &'a mut Scratch<R, D>,
+}
+
+impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for SweepStreamed<'_, '_, M, R, D> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) {
+        self.kernel.sweep_lanes::<L>(self.view, self.rows, self.out, self.scratch);
+    }
+}
+
+impl<R: Scalar, const D: usize, M: Stream<R, D>> Kernel<R, D> for Streamed<M, R, D> {
+    fn stages(&self) -> &Stages<R, D> {
+        &self.listed.stages
+    }
+    fn streams(&self) -> Option<bool> {
+        self.direct().then_some(M::HEADINGS)
+    }
+    fn complete(&self, start: &mut Start<'_, R, D>) {
+        Stream::complete(self.law(), start);
+    }
+    fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>) {
+        if self.direct() {
+            with_lanes(level(), SweepStreamed { kernel: self, view, rows, out, scratch });
+        } else {
+            self.listed.sweep(view, rows, out, scratch);
+        }
+    }
+    fn one(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+    ) -> Motion<R, D> {
+        let Index::Live(grid) = view.index else { return self.listed.one(view, row, scratch, memory) };
+        if !self.direct() {
+            return self.listed.one(view, row, scratch, memory);
+        }
+        // one agent against its cells, without lists
+        let place = view.now.position(row);
+        let velocity = view.now.velocity(row);
+        let me = MeLanes { velocity: velocity.0, heading: velocity.unit().0 };
+        let mut sums = M::Sums::<R>::zero();
+        let found = grid.within(view.others, place, self.law().reach(), |j, offset, squared| {
+            if j as usize == row || view.dead(view.others, j as usize) {
+                return;
+            }
+            let velocity = view.others.velocity(j as usize);
+            let other = Other {
+                velocity,
+                heading: if M::HEADINGS { velocity.unit() } else { Vector::ZERO },
+                row: j as usize,
+                others: view.others,
+                columns: &self.listed.stages.columns,
+            };
+            let sets = self.law().classify::<R>(&me, &offset.0, squared, &other);
+            self.law().gather::<R>(&mut sums, &me, &offset.0, squared, &other, &sets);
+        });
+        if found { self.conclude(view, row, &sums, scratch) } else { self.listed.one(view, row, scratch, memory) }
+    }
+    fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
+        self.listed.neighbours(view, row, scratch)
+    }
+}

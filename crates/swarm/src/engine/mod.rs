@@ -1,0 +1,12 @@
+//! The world and its engine: the only hot loop, the drivers, checkpoints.
+
+mod contacts;
+mod kernel;
+mod plan;
+mod step;
+mod world;
+
+pub(crate) use kernel::{Kernel, Listed, Stages, Streamed};
+pub use kernel::{MotionNoise, Sensing};
+pub use plan::{Clock, Driver, GroupPlan, IndexChoice, Order, Phase, Placement, Start, WorldError, WorldPlan};
+pub use world::{Checkpoint, Group, World};

@@ -1,0 +1,239 @@
+//! What a world is built from.
+
+use crate::engine::{MotionNoise, Sensing};
+use crate::parameters::{ParameterError, Values};
+use crate::physics::{Contact, Mobility};
+use crate::resources::ResourcePlan;
+use crate::selection::Perception;
+use space::obstacles::Obstacle;
+use space::{Real, Space, Vector};
+use std::collections::BTreeMap;
+
+/// The order in which a sequential driver activates agents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// By id, every step.
+    RoundRobin,
+    /// In a new random order every step.
+    Random,
+}
+
+/// When an asynchronous agent starts its first period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// All at the start.
+    Together,
+    /// Evenly over the period, by id.
+    Spread,
+    /// Uniformly at random over the period.
+    Random,
+}
+
+/// How an asynchronous agent measures its period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Clock {
+    /// The period, give or take a share of it drawn uniformly each time.
+    Regular {
+        /// Largest deviation, as a share of the period (0 to 1).
+        jitter: f64,
+    },
+    /// Exponentially distributed with the period as its mean.
+    Poisson,
+}
+
+/// Who acts when.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Driver {
+    /// All read the frame at `t`, and the whole next frame is written at once.
+    Synchronous,
+    /// One after the other; each reads the newest state of the others and writes its own at once.
+    Sequential(Order),
+    /// Each on its own clock, with physics running on beneath.
+    Asynchronous {
+        /// Step of the physics.
+        tick: f64,
+        /// Time between an agent's decisions.
+        period: f64,
+        /// When agents start.
+        phase: Phase,
+        /// How they measure the period.
+        clock: Clock,
+        /// Age of what is read of others.
+        delay: f64,
+    },
+}
+
+/// How neighbours are searched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IndexChoice {
+    /// Cells where they pay.
+    Automatic,
+    /// All pairs, always.
+    Pairs,
+    /// Cells wherever the space and the reach allow, for any number of agents.
+    Cells,
+}
+
+/// A group's state at the start, agent by agent.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Start<R, const D: usize> {
+    /// Positions.
+    pub position: Vec<Vector<R, D>>,
+    /// Velocities, or none.
+    pub velocity: Option<Vec<Vector<R, D>>>,
+    /// Declared columns that are given, by name.
+    pub columns: BTreeMap<String, Vec<f64>>,
+}
+
+/// How a group's start is had.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Placement<R, const D: usize> {
+    /// As given.
+    Given(Start<R, D>),
+    /// Uniformly in a box, with headings at random and the model's initial speed.
+    Uniform {
+        /// Lower corner.
+        low: Vector<R, D>,
+        /// Upper corner.
+        high: Vector<R, D>,
+    },
+}
+
+/// The plan of a group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroupPlan<R, const D: usize> {
+    /// Name in files and tables.
+    pub name: String,
+    /// Number of agents.
+    pub count: usize,
+    /// Id of the model.
+    pub model: String,
+    /// Its parameters; those left out take their defaults.
+    pub parameters: Values,
+    /// The start.
+    pub placement: Placement<R, D>,
+    /// Sensing.
+    pub sensing: Sensing<R>,
+    /// Perception functions in place of the model's own, by the name of the set.
+    pub sets: Vec<(String, Perception<R, D>)>,
+    /// What a body can do.
+    pub mobility: Mobility<R>,
+    /// What happens on contact; `None`: as the model says.
+    pub contact: Option<Contact>,
+    /// Body radius; `None`: as the model says.
+    pub radius: Option<R>,
+    /// Errors of computation and execution.
+    pub noise: MotionNoise<R>,
+}
+
+impl<R: Real, const D: usize> GroupPlan<R, D> {
+    /// A group of a model with defaults for everything else.
+    pub fn new(name: &str, model: &str, parameters: Values, count: usize, placement: Placement<R, D>) -> Self {
+        Self {
+            name: name.to_owned(),
+            count,
+            model: model.to_owned(),
+            parameters,
+            placement,
+            sensing: Sensing::default(),
+            sets: Vec::new(),
+            mobility: Mobility::Ideal,
+            contact: None,
+            radius: None,
+            noise: MotionNoise::default(),
+        }
+    }
+}
+
+/// The plan of a world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldPlan<R, const D: usize> {
+    /// The space.
+    pub space: Space<R, D>,
+    /// The groups, in the order of their ids.
+    pub groups: Vec<GroupPlan<R, D>>,
+    /// Obstacles.
+    pub obstacles: Vec<Obstacle<R, D>>,
+    /// Resources.
+    pub resources: Option<ResourcePlan<R, D>>,
+    /// Who acts when.
+    pub driver: Driver,
+    /// How neighbours are searched.
+    pub index: IndexChoice,
+    /// Seed of all draws.
+    pub seed: u64,
+    /// Step number at the start.
+    pub first_step: u64,
+    /// Number of threads.
+    pub threads: usize,
+}
+
+impl<R: Real, const D: usize> WorldPlan<R, D> {
+    /// A world of one group, everything else by default.
+    pub fn new(space: Space<R, D>, group: GroupPlan<R, D>) -> Self {
+        Self {
+            space,
+            groups: vec![group],
+            obstacles: Vec::new(),
+            resources: None,
+            driver: Driver::Synchronous,
+            index: IndexChoice::Automatic,
+            seed: 1,
+            first_step: 0,
+            threads: 1,
+        }
+    }
+}
+
+/// What is wrong with a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WorldError {
+    /// No model of this id.
+    Model {
+        /// The id asked for.
+        id: String,
+        /// The nearest id there is.
+        nearest: String,
+    },
+    /// The model does not work in this many dimensions.
+    Dimension {
+        /// The model.
+        id: String,
+        /// Dimensions asked for.
+        asked: usize,
+        /// Dimensions it works in.
+        works: &'static [usize],
+    },
+    /// A parameter.
+    Parameter {
+        /// Name of the group.
+        group: String,
+        /// What is wrong with it.
+        error: ParameterError,
+    },
+    /// Something else about a group.
+    Group {
+        /// Name of the group.
+        group: String,
+        /// What is wrong, what was expected, and the remedy.
+        problem: String,
+    },
+    /// Something about the world as a whole.
+    World(String),
+}
+
+impl core::fmt::Display for WorldError {
+    fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Model { id, nearest } => write!(out, "unknown model `{id}`; did you mean `{nearest}`?"),
+            Self::Dimension { id, asked, works } => {
+                let works: Vec<String> = works.iter().map(ToString::to_string).collect();
+                write!(out, "`{id}` works in {} dimensions, not in {asked}", works.join(" or "))
+            }
+            Self::Parameter { group, error } => write!(out, "group `{group}`: {error}"),
+            Self::Group { group, problem } => write!(out, "group `{group}`: {problem}"),
+            Self::World(problem) => write!(out, "{problem}"),
+        }
+    }
+}
+impl core::error::Error for WorldError {}

@@ -1,0 +1,235 @@
+//! The step: who acts when. Synchronous, sequential and asynchronous drivers share the same decisions.
+
+use crate::engine::kernel::{Index, Writer};
+use crate::engine::plan::{Clock, Driver, Order};
+use crate::engine::world::World;
+use crate::motion::Motion;
+use crate::parameters::Scalar;
+use crate::physics::{Contact, Met};
+use space::random::{Purpose, uniform};
+
+impl<R: Scalar, const D: usize> World<R, D> {
+    /// Makes one step (one tick, for an asynchronous world).
+    pub fn step(&mut self) {
+        match self.driver {
+            Driver::Synchronous => self.step_synchronous(),
+            Driver::Sequential(order) => self.step_sequential(order),
+            Driver::Asynchronous { tick, period, clock, delay, .. } => {
+                self.step_asynchronous(tick, period, clock, delay)
+            }
+        }
+        self.step += 1;
+    }
+    /// Makes several steps.
+    pub fn run(&mut self, steps: u64) {
+        for _ in 0..steps {
+            self.step();
+        }
+    }
+
+    /// All read the frame at `t`; the whole next frame is written at once.
+    fn step_synchronous(&mut self) {
+        self.obstacles.advance(self.time);
+        if !self.declared.is_empty() {
+            // columns that nobody writes keep their values
+            for (to, from) in self.next.state.iter_mut().zip(&self.now.state) {
+                to.copy_from_slice(from);
+            }
+        }
+        let mut next = core::mem::replace(&mut self.next, space::Columns::new(0, 0));
+        let mut memory = core::mem::take(&mut self.memory);
+        let mut scratch = core::mem::take(&mut self.scratch);
+        {
+            next.id.copy_from_slice(&self.now.id);
+            let view = self.view();
+            let out = Writer::new(&mut next, &mut memory);
+            let worker_scratch = space::parallel::Shared::new(&mut scratch);
+            let rows = self.now.len();
+            let threads = self.workers.threads();
+            let tasks = if threads == 1 { 1 } else { (rows / 64).clamp(1, threads * 8) };
+            self.workers.each(tasks, |worker, task| {
+                // SAFETY: a worker runs one task at a time.
+                let scratch = unsafe { &mut worker_scratch.part(worker..worker + 1)[0] };
+                let part = (rows * task / tasks)..(rows * (task + 1) / tasks);
+                for group in &self.groups {
+                    group.kernel.sweep(&view, part.clone(), &out, scratch);
+                }
+            });
+        }
+        self.next = next;
+        self.memory = memory;
+        self.scratch = scratch;
+        self.finish(self.dt, self.time + self.dt.to_f64());
+    }
+
+    /// What follows everyone's motion: contacts, resources, the new index.
+    fn finish(&mut self, dt: R, time: f64) {
+        if self.contacts {
+            self.resolve_contacts();
+        }
+        if let Some(mut resources) = self.resources.take() {
+            let rows = core::mem::take(&mut self.rows);
+            let row_of = |id: u32| if rows.is_empty() { id as usize } else { rows[id as usize] as usize };
+            resources.update(&self.space, &mut self.next, row_of, self.seed, self.step, time, dt);
+            self.rows = rows;
+            self.resources = Some(resources);
+        }
+        core::mem::swap(&mut self.now, &mut self.next);
+        self.time = time;
+        self.settle();
+    }
+
+    /// One after the other; each reads the newest state and writes its own at once.
+    fn step_sequential(&mut self, order: Order) {
+        self.obstacles.advance(self.time);
+        let agents = self.now.len();
+        if self.order.len() != agents || order == Order::RoundRobin {
+            self.order.clear();
+            self.order.extend(0..agents as u32);
+        }
+        if order == Order::Random {
+            // always from the order of ids, so that a step does not depend on the one before
+            for (place, id) in self.order.iter_mut().enumerate() {
+                *id = place as u32;
+            }
+            shuffle(&mut self.order, self.seed, self.step);
+        }
+        let Some(mut scratch) = self.scratch.pop() else { return };
+        let sequence = core::mem::take(&mut self.order);
+        self.met.fill(Met::Nothing);
+        for &id in &sequence {
+            let row = id as usize;
+            let g = self.group_of(id);
+            let view = self.view();
+            let group = &self.groups[g];
+            if view.mortality.is_some_and(|c| self.now.state[c][row] <= R::ZERO) {
+                continue;
+            }
+            let mut memory = self.memory.get(row).cloned();
+            let wanted = group.kernel.one(&view, row, &mut scratch, memory.as_mut());
+            let stages = group.kernel.stages();
+            let (place, velocity) = stages.perform(&view, row, wanted, self.dt, &mut scratch.body);
+            for (&c, &value) in stages.columns.iter().zip(&scratch.own) {
+                self.now.state[c][row] = value;
+            }
+            let stages = self.groups[g].kernel.stages();
+            for (&c, &value) in stages.body_columns.iter().zip(&scratch.body) {
+                self.now.state[c][row] = value;
+            }
+            if let Some(memory) = memory {
+                self.memory[row] = memory;
+            }
+            let (place, velocity) =
+                if self.contacts { self.resolve_one(row, place, velocity) } else { (place, velocity) };
+            self.now.set_position(row, place);
+            self.now.set_velocity(row, velocity);
+            if let Some(live) = &mut self.live {
+                live.follow(row, place);
+            }
+        }
+        self.order = sequence;
+        self.scratch.push(scratch);
+        self.time += self.dt.to_f64();
+        self.note_collisions();
+        if let Some(mut resources) = self.resources.take() {
+            resources.update(&self.space, &mut self.now, |id| id as usize, self.seed, self.step, self.time, self.dt);
+            self.resources = Some(resources);
+        }
+    }
+
+    /// Each on its own clock; physics moves everyone in every tick.
+    fn step_asynchronous(&mut self, tick: f64, period: f64, clock: Clock, delay: f64) {
+        self.obstacles.advance(self.time);
+        let agents = self.now.len();
+        let stale = (delay / tick).round() as usize;
+        if stale > 0 {
+            self.clocks.history.push_back(self.now.clone());
+            while self.clocks.history.len() > stale + 1 {
+                self.clocks.history.pop_front();
+            }
+        }
+        let Some(mut scratch) = self.scratch.pop() else { return };
+        let mut clocks = core::mem::replace(
+            &mut self.clocks,
+            crate::engine::world::Clocks {
+                due: Vec::new(),
+                decisions: Vec::new(),
+                command: Vec::new(),
+                history: Default::default(),
+            },
+        );
+        let per_time = R::ONE / self.dt;
+        for (to, from) in self.next.state.iter_mut().zip(&self.now.state) {
+            to.copy_from_slice(from);
+        }
+        let step = R::of(tick);
+        for row in 0..agents {
+            let group = &self.groups[self.group_of(row as u32)];
+            let stages = group.kernel.stages();
+            let mut view = self.view();
+            if view.mortality.is_some_and(|c| self.now.state[c][row] <= R::ZERO) {
+                self.next.set_position(row, self.now.position(row));
+                self.next.set_velocity(row, self.now.velocity(row));
+                continue;
+            }
+            // half a tick of tolerance: sums of ticks are not exact
+            if clocks.due[row] <= self.time + 0.5 * tick {
+                if let Some(old) = clocks.history.front()
+                    && stale > 0
+                {
+                    view.others = old;
+                    view.index = Index::Pairs;
+                }
+                let mut memory = self.memory.get(row).cloned();
+                let wanted = group.kernel.one(&view, row, &mut scratch, memory.as_mut());
+                clocks.command[row] =
+                    Motion { velocity: wanted.velocity, displacement: wanted.displacement * per_time };
+                for (&c, &value) in stages.columns.iter().zip(&scratch.own) {
+                    self.next.state[c][row] = value;
+                }
+                if let Some(memory) = memory {
+                    self.memory[row] = memory;
+                }
+                let count = clocks.decisions[row];
+                clocks.decisions[row] += 1;
+                let draw = uniform(self.seed, Purpose::Environment, count, row as u32 * 8 + 6);
+                clocks.due[row] += match clock {
+                    Clock::Regular { jitter } => period * (1.0 + jitter * (2.0 * draw - 1.0)),
+                    Clock::Poisson => -period * (1.0 - draw).ln(),
+                };
+            } else {
+                stages.load(&self.now, row, &mut scratch);
+            }
+            let command = clocks.command[row];
+            let motion = Motion { velocity: command.velocity, displacement: command.displacement * step };
+            let stages = self.groups[self.group_of(row as u32)].kernel.stages();
+            let (place, velocity) = stages.perform(&self.view(), row, motion, step, &mut scratch.body);
+            let body_columns = &self.groups[self.group_of(row as u32)].kernel.stages().body_columns;
+            for (&c, &value) in body_columns.iter().zip(&scratch.body) {
+                self.next.state[c][row] = value;
+            }
+            self.next.set_position(row, place);
+            self.next.set_velocity(row, velocity);
+        }
+        self.scratch.push(scratch);
+        self.clocks = clocks;
+        self.finish(step, self.time + tick);
+        if self.groups.iter().any(|g| g.contact == Contact::Reflect || g.contact == Contact::Clamp) {
+            // a reversed velocity is also the command from now on
+            for id in 0..agents {
+                if self.met.get(id).is_some_and(|&met| met != Met::Nothing) {
+                    let velocity = self.now.velocity(id);
+                    self.clocks.command[id] = Motion { velocity, displacement: velocity };
+                }
+            }
+        }
+    }
+}
+
+/// Fisher and Yates, with draws for this step alone.
+fn shuffle(order: &mut [u32], seed: u64, step: u64) {
+    for last in (1..order.len()).rev() {
+        let other = (uniform(seed, Purpose::Environment, step, last as u32 * 8 + 7) * (last as f64 + 1.0)) as usize;
+        order.swap(last, other.min(last));
+    }
+}

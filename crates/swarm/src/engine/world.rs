@@ -1,0 +1,808 @@
+//! The world: columns, index, obstacles, resources, groups.
+
+use crate::detection::readings::ErrorCount;
+use crate::engine::kernel::{Index, Kernel, Scratch, Sensing, Stages, View};
+use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
+use crate::models::{self, Catalogue, Models};
+use crate::motion::{Injected, Motion, Start as Completion};
+use crate::parameters::{Scalar, nearest};
+use crate::physics::{Contact, Met};
+use crate::resources::Resources;
+use crate::selection::{NamedSet, Perception, Reach};
+use crate::sensing::robot::Memory;
+use space::obstacles::Obstacles;
+use space::parallel::Workers;
+use space::random::{Purpose, Stream as DrawStream, unit_vector};
+use space::{Column, Columns, Frame, Grid, GroupRange, LiveGrid, PADDING, Real, Space, Vector};
+
+/// Cells pay from this number of agents on.
+const CELLS_FROM: usize = 256;
+
+/// A group of a running world.
+pub struct Group<R: Scalar, const D: usize> {
+    /// Name in files and tables.
+    pub name: String,
+    /// Id of its model.
+    pub model: String,
+    pub(crate) kernel: Box<dyn Kernel<R, D>>,
+    pub(crate) contact: Contact,
+    pub(crate) radius: R,
+}
+
+/// What an asynchronous driver remembers.
+#[derive(Clone, Debug)]
+pub(crate) struct Clocks<R, const D: usize> {
+    /// Time of the next decision, by id.
+    pub(crate) due: Vec<f64>,
+    /// Decisions made, by id.
+    pub(crate) decisions: Vec<u64>,
+    /// Motion per time that was last decided, by id.
+    pub(crate) command: Vec<Motion<R, D>>,
+    /// Older frames, the oldest first, where readings are stale.
+    pub(crate) history: std::collections::VecDeque<Columns<R, D>>,
+}
+
+/// A world that can be stepped.
+pub struct World<R: Scalar, const D: usize> {
+    pub(crate) space: Space<R, D>,
+    pub(crate) obstacles: Obstacles<R, D>,
+    pub(crate) resources: Option<Resources<R, D>>,
+    pub(crate) groups: Vec<Group<R, D>>,
+    pub(crate) ranges: Vec<GroupRange>,
+    pub(crate) declared: Vec<Column>,
+    pub(crate) now: Columns<R, D>,
+    pub(crate) next: Columns<R, D>,
+    pub(crate) heading: [Vec<R>; D],
+    pub(crate) headings: bool,
+    pub(crate) reach: Option<Reach<R>>,
+    pub(crate) grid: Option<Grid<R, D>>,
+    pub(crate) live: Option<LiveGrid<R, D>>,
+    /// Rows by id, where rows are sorted and somebody needs it.
+    pub(crate) rows: Vec<u32>,
+    pub(crate) needs_rows: bool,
+    pub(crate) bodies: Vec<(u32, R)>,
+    pub(crate) driver: Driver,
+    pub(crate) dt: R,
+    pub(crate) clocks: Clocks<R, D>,
+    pub(crate) memory: Vec<Memory<R>>,
+    pub(crate) seed: u64,
+    pub(crate) step: u64,
+    pub(crate) time: f64,
+    pub(crate) workers: Workers,
+    pub(crate) scratch: Vec<Scratch<R, D>>,
+    pub(crate) injected: Option<Injected>,
+    /// Whether anybody's way can be blocked.
+    pub(crate) contacts: bool,
+    /// What each agent met in the last step, by id; empty where nobody can meet anything.
+    pub(crate) met: Vec<Met>,
+    pub(crate) met_total: [u64; 4],
+    pub(crate) collided: Option<usize>,
+    pub(crate) order: Vec<u32>,
+    pub(crate) push: Vec<Vector<R, D>>,
+}
+
+impl<R: Scalar, const D: usize> World<R, D>
+where
+    Models: Catalogue<R, D>,
+{
+    /// Builds a world from its plan.
+    ///
+    /// # Errors
+    /// Whatever in the plan cannot be, with the remedy where there is one.
+    pub fn new(plan: WorldPlan<R, D>) -> Result<Self, WorldError> {
+        check_world(&plan)?;
+        let agents: usize = plan.groups.iter().map(|g| g.count).sum();
+        if agents > u32::MAX as usize / 8 - PADDING {
+            return Err(WorldError::World(format!("{agents} agents are more than the {} that ids hold", u32::MAX / 8)));
+        }
+        // the models, and the columns they and their bodies declare
+        let mut declared: Vec<Column> = Vec::new();
+        let mut column = |wanted: &Column| match declared.iter().position(|c| c.name == wanted.name) {
+            Some(at) => at,
+            None => {
+                declared.push(*wanted);
+                declared.len() - 1
+            }
+        };
+        let widest = plan.groups.iter().filter_map(|g| g.radius).fold(R::ZERO, Real::most);
+        let mut prepared = Vec::new();
+        for group in &plan.groups {
+            let model = prepare::<R, D>(group)?;
+            let own: Vec<usize> = model.columns.iter().map(&mut column).collect();
+            let body: Vec<usize> = group.mobility.columns().iter().map(&mut column).collect();
+            prepared.push((model, own, body));
+        }
+        let dt = prepared.first().map_or(R::ONE, |(model, ..)| model.time_step);
+        let obstacle_reach = prepared.iter().filter_map(|(m, ..)| m.obstacle_reach).fold(R::ZERO, Real::most);
+        let (mut groups, mut ranges, mut bodies) = (Vec::new(), Vec::new(), Vec::new());
+        let mut first = 0u32;
+        let mut identity = false;
+        let mut reach: Option<Reach<R>> = None;
+        let mut headings = false;
+        for (group, (model, own, body)) in plan.groups.iter().zip(prepared) {
+            if model.time_step != dt {
+                return Err(in_group(
+                    group,
+                    format!(
+                        "its step is {} and that of the first group {dt}; all groups share one step",
+                        model.time_step
+                    ),
+                ));
+            }
+            let radius = group.radius.unwrap_or(model.body_radius);
+            let (sets, own_sets) = chosen_sets(group, &model.sets)?;
+            let set_reach =
+                sets.iter().map(|s| s.perception.reach()).reduce(Reach::and).unwrap_or(Reach::Within(R::TINY));
+            let mut sensing = group.sensing.clone();
+            let uses_sets = !own_sets || model.stream_reach.is_none();
+            let mut needs = model.needs;
+            needs.identity |= sets.iter().any(|s| s.perception.identifies());
+            match &mut sensing {
+                Sensing::Ideal(ideal) => ideal.check().map_err(|problem| in_group(group, problem))?,
+                Sensing::Scanner(robot) => {
+                    refuse_what_a_scanner_cannot_give(group, needs, robot.association.is_some(), D)?;
+                    robot.widest_body = widest.most(radius);
+                }
+            }
+            let group_reach = match (&sensing, model.stream_reach) {
+                (Sensing::Scanner(robot), _) => Reach::Within(robot.scanner_range() + robot.widest_body),
+                (Sensing::Ideal(ideal), _) if ideal.range.is_some() => {
+                    Reach::Within(ideal.range.unwrap_or(R::INFINITY).least(if let Reach::Within(r) = set_reach {
+                        r
+                    } else {
+                        R::INFINITY
+                    }))
+                }
+                (_, Some(r)) if !uses_sets => {
+                    if r.finite() {
+                        Reach::Within(r)
+                    } else {
+                        Reach::All
+                    }
+                }
+                _ => set_reach,
+            };
+            // the index serves the largest finite reach; who needs everyone looks at all pairs
+            reach = match (reach, group_reach) {
+                (None, Reach::All) => None,
+                (None, r) => Some(r),
+                (Some(before), Reach::All) => Some(before),
+                (Some(Reach::Within(a)), Reach::Within(b)) => Some(Reach::Within(a.most(b))),
+                (Some(Reach::Nearest(a)), Reach::Nearest(b)) => Some(Reach::Nearest(a.max(b))),
+                (Some(Reach::Within(a)), _) | (Some(_), Reach::Within(a)) => Some(Reach::Within(a)),
+                (Some(other), _) => Some(other),
+            };
+            identity |= needs.identity;
+            let contact = group.contact.unwrap_or(model.contact);
+            let stages = Stages {
+                first,
+                count: group.count as u32,
+                columns: own,
+                body_columns: body,
+                sets,
+                own_sets,
+                reach: set_reach,
+                sensing,
+                obstacle_reach: model.obstacle_reach,
+                mobility: group.mobility,
+                noise: group.noise,
+                dt,
+            };
+            let kernel = (model.build)(stages);
+            headings |= kernel.streams() == Some(true);
+            groups.push(Group { name: group.name.clone(), model: group.model.clone(), kernel, contact, radius });
+            ranges.push(GroupRange { name: group.name.clone(), first, count: group.count as u32 });
+            bodies.push((first, radius));
+            first += group.count as u32;
+        }
+        let farthest = bodies.iter().fold(obstacle_reach, |far, &(_, radius)| far.most(radius));
+        let periods = plan.space.periods();
+        let margin = if farthest > R::ZERO { farthest } else { R::ONE };
+        let obstacles = Obstacles::new(plan.obstacles.clone(), periods, margin)
+            .map_err(|error| WorldError::World(format!("obstacles: {error}")))?;
+        let resources = match plan.resources.clone() {
+            Some(resources) => {
+                let find = |name: &str| declared.iter().position(|c| c.name == name);
+                Some(Resources::new(resources, find).map_err(WorldError::World)?)
+            }
+            None => None,
+        };
+        let body_contacts =
+            groups.iter().any(|g| g.radius > R::ZERO && matches!(g.contact, Contact::Refuse | Contact::Slide));
+        let contacts = groups.iter().any(|g| g.contact != Contact::Free)
+            && (plan.space.has_walls() || !obstacles.is_empty() || body_contacts);
+        let threads = plan.threads.max(1);
+        let collided = declared.iter().position(|c| c.name == "collided");
+        let workers = Workers::new(threads);
+        let scratch = (0..workers.threads()).map(|_| Scratch::new(declared.len())).collect();
+        let sequential = matches!(plan.driver, Driver::Sequential(_));
+        let delayed = matches!(plan.driver, Driver::Asynchronous { .. });
+        let cells = match plan.index {
+            IndexChoice::Pairs => false,
+            IndexChoice::Automatic => agents >= if sequential { 64 } else { CELLS_FROM },
+            IndexChoice::Cells => agents > 0,
+        };
+        if !cells || delayed {
+            reach = None;
+        }
+        let associated = groups.iter().find_map(|g| match &g.kernel.stages().sensing {
+            Sensing::Scanner(robot) => robot.association,
+            Sensing::Ideal(_) => None,
+        });
+        let memory = associated.map_or_else(Vec::new, |gate| vec![Memory::new(gate); agents]);
+        let mut world = Self {
+            space: plan.space,
+            obstacles,
+            needs_rows: resources.is_some() || body_contacts || identity,
+            resources,
+            groups,
+            ranges,
+            now: Columns::new(agents, declared.len()),
+            next: Columns::new(agents, declared.len()),
+            heading: core::array::from_fn(|_| Vec::new()),
+            headings,
+            reach,
+            grid: None,
+            live: None,
+            rows: Vec::new(),
+            bodies,
+            driver: plan.driver,
+            dt,
+            clocks: Clocks { due: Vec::new(), decisions: Vec::new(), command: Vec::new(), history: Default::default() },
+            memory,
+            seed: plan.seed,
+            step: plan.first_step,
+            time: 0.0,
+            workers,
+            scratch,
+            injected: None,
+            met: if contacts { vec![Met::Nothing; agents] } else { Vec::new() },
+            contacts,
+            met_total: [0; 4],
+            collided,
+            order: Vec::new(),
+            push: Vec::new(),
+            declared,
+        };
+        world.place_groups(&plan)?;
+        world.obstacles.advance(0.0);
+        world.start_clocks();
+        world.settle();
+        Ok(world)
+    }
+
+    fn place_groups(&mut self, plan: &WorldPlan<R, D>) -> Result<(), WorldError> {
+        for (g, group) in plan.groups.iter().enumerate() {
+            let first = self.ranges[g].first as usize;
+            let kernel = &self.groups[g].kernel;
+            let own = &kernel.stages().columns;
+            let initial_speed = prepare::<R, D>(group)?.initial_speed;
+            let given: Vec<bool> = match &group.placement {
+                Placement::Given(start) => {
+                    check_start(group, start, &self.declared)?;
+                    own.iter().map(|&c| start.columns.contains_key(self.declared[c].name)).collect()
+                }
+                Placement::Uniform { low, high } => {
+                    if !(low.finite() && high.finite()) || (0..D).any(|a| low[a] > high[a]) {
+                        return Err(in_group(group, "the box it starts in needs finite corners, low <= high".into()));
+                    }
+                    vec![false; own.len()]
+                }
+            };
+            for member in 0..group.count {
+                let row = first + member;
+                let id = row as u64;
+                let draws = DrawStream { seed: plan.seed, purpose: Purpose::Init, step: 1 << 41, agent: row as u32 };
+                let (position, velocity) = match &group.placement {
+                    Placement::Given(start) => {
+                        for (name, values) in &start.columns {
+                            if let Some(c) = self.declared.iter().position(|c| c.name == name) {
+                                self.now.state[c][row] = R::of(values[member]);
+                            }
+                        }
+                        (start.position[member], start.velocity.as_ref().map(|v| v[member]))
+                    }
+                    Placement::Uniform { low, high } => {
+                        let draw = |slot| space::random::uniform(plan.seed, Purpose::Init, id, slot);
+                        let at = Vector(core::array::from_fn(|a| low[a] + (high[a] - low[a]) * R::of(draw(a as u32))));
+                        let heading: Vector<R, D> = unit_vector(draw(4), draw(5));
+                        (at, Some(heading * initial_speed))
+                    }
+                };
+                let mut moving = velocity.unwrap_or(Vector::ZERO);
+                let mut columns: Vec<R> = own.iter().map(|&c| self.now.state[c][row]).collect();
+                kernel.complete(&mut Completion {
+                    member,
+                    draws,
+                    velocity: &mut moving,
+                    velocity_given: velocity.is_some(),
+                    own: &mut columns,
+                    given: &given,
+                });
+                for (&c, &value) in own.iter().zip(&columns) {
+                    self.now.state[c][row] = value;
+                }
+                if let Some(&facing) = kernel.stages().body_columns.first() {
+                    self.now.state[facing][row] = moving.angle();
+                }
+                self.now.set_position(row, self.space.place(position));
+                self.now.set_velocity(row, moving);
+            }
+        }
+        if !self.frame().finite() {
+            return Err(WorldError::World("a start value is not a finite number".into()));
+        }
+        Ok(())
+    }
+}
+
+impl<R: Scalar, const D: usize> World<R, D> {
+    fn start_clocks(&mut self) {
+        let Driver::Asynchronous { period, phase, .. } = self.driver else { return };
+        let agents = self.now.len();
+        let due = |id: usize| match phase {
+            Phase::Together => 0.0,
+            Phase::Spread => period * id as f64 / agents as f64,
+            Phase::Random => period * space::random::uniform(self.seed, Purpose::Environment, u64::MAX, id as u32 * 8),
+        };
+        self.clocks.due = (0..agents).map(due).collect();
+        self.clocks.decisions = vec![0; agents];
+        let dt = self.dt;
+        self.clocks.command = (0..agents)
+            .map(|id| {
+                let velocity = self.now.velocity(id);
+                Motion { velocity, displacement: velocity * dt }
+            })
+            .collect();
+    }
+
+    /// Brings the index and what depends on it up to date with `now`.
+    pub(crate) fn settle(&mut self) {
+        if let Driver::Sequential(_) = self.driver {
+            if self.live.is_none()
+                && let Some(Reach::Within(reach)) = self.reach
+            {
+                self.live = LiveGrid::new(&self.space, reach, &self.now);
+            }
+        } else if let Some(reach) = self.reach {
+            let reach = match reach {
+                Reach::Within(reach) => reach,
+                Reach::Nearest(count) => self.distance_of_nearest(count),
+                Reach::All => R::INFINITY,
+            };
+            let grid = Grid::sort(self.grid.take(), &self.space, reach, &self.now, &mut self.next, &self.workers);
+            if grid.is_some() {
+                core::mem::swap(&mut self.now, &mut self.next);
+            } else {
+                self.unsort();
+            }
+            self.grid = grid;
+        }
+        self.update_rows();
+        if self.headings {
+            self.update_headings();
+        }
+    }
+    /// Puts rows back in the order of ids, for when cells cannot serve any more.
+    fn unsort(&mut self) {
+        if (0..self.now.len()).all(|row| self.now.id[row] as usize == row) {
+            return;
+        }
+        let rows = self.frame().rows_by_id();
+        for (id, &row) in rows.iter().enumerate() {
+            self.next.set_position(id, self.now.position(row));
+            self.next.set_velocity(id, self.now.velocity(row));
+            for (to, from) in self.next.state.iter_mut().zip(&self.now.state) {
+                to[id] = from[row];
+            }
+            self.next.id[id] = id as u32;
+        }
+        core::mem::swap(&mut self.now, &mut self.next);
+    }
+    fn update_rows(&mut self) {
+        if !self.needs_rows || self.grid.is_none() {
+            self.rows.clear();
+            return;
+        }
+        self.rows.resize(self.now.len(), 0);
+        for row in 0..self.now.len() {
+            self.rows[self.now.id[row] as usize] = row as u32;
+        }
+    }
+    fn update_headings(&mut self) {
+        let padded = self.now.len() + PADDING;
+        let now = &self.now;
+        for column in &mut self.heading {
+            column.resize(padded, R::ZERO);
+        }
+        let heading = self.heading.each_mut().map(|c| space::parallel::Shared::new(c));
+        let tasks = if self.workers.threads() == 1 { 1 } else { 4 * self.workers.threads() };
+        let rows = now.len();
+        self.workers.each(tasks, |_, task| {
+            let part = (rows * task / tasks)..(rows * (task + 1) / tasks);
+            // SAFETY: tasks own disjoint rows.
+            let mut to: [&mut [R]; D] = core::array::from_fn(|a| unsafe { heading[a].part(part.clone()) });
+            space::lanes::with_lanes(space::lanes::level(), Headings { now, first: part.start, to: &mut to });
+        });
+    }
+    /// A length that about `count` agents live within, from the box that holds them all.
+    fn distance_of_nearest(&self, count: usize) -> R {
+        let (low, high) = space::grid::bounds(&self.now);
+        let mut volume = 1.0;
+        for a in 0..D {
+            let extent = self.space.side(a).unwrap_or(high.0[a] - low.0[a]).to_f64();
+            volume *= extent.max(1e-9);
+        }
+        let share = volume * (count.max(1) as f64) / (self.now.len().max(1) as f64);
+        R::of(libm_root(share, D))
+    }
+    pub(crate) fn view(&self) -> View<'_, R, D> {
+        View {
+            now: &self.now,
+            others: &self.now,
+            heading: &self.heading,
+            index: match (&self.grid, &self.live) {
+                (Some(grid), _) => Index::Sorted(grid),
+                (None, Some(live)) => Index::Live(live),
+                (None, None) => Index::Pairs,
+            },
+            space: &self.space,
+            obstacles: &self.obstacles,
+            resources: self.resources.as_ref(),
+            mortality: self.resources.as_ref().and_then(Resources::mortality),
+            rows: if self.rows.is_empty() { None } else { Some(&self.rows) },
+            bodies: &self.bodies,
+            seed: self.seed,
+            step: self.step,
+            time: self.time,
+            injected: self.injected.as_ref(),
+        }
+    }
+    pub(crate) fn group_of(&self, id: u32) -> usize {
+        self.ranges.partition_point(|range| range.first + range.count <= id)
+    }
+    /// The row of an agent.
+    #[inline]
+    pub fn row_of(&self, id: u32) -> usize {
+        if self.rows.is_empty() && self.grid.is_none() {
+            id as usize
+        } else if self.rows.is_empty() {
+            (0..self.now.len()).find(|&row| self.now.id[row] == id).unwrap_or(0)
+        } else {
+            self.rows[id as usize] as usize
+        }
+    }
+    /// The state, read-only.
+    pub fn frame(&self) -> Frame<'_, R, D> {
+        Frame {
+            columns: &self.now,
+            declared: &self.declared,
+            groups: &self.ranges,
+            space: &self.space,
+            time: self.time,
+            step: self.step,
+        }
+    }
+    /// Position of an agent.
+    pub fn position(&self, id: u32) -> Vector<R, D> {
+        self.now.position(self.row_of(id))
+    }
+    /// Velocity of an agent.
+    pub fn velocity(&self, id: u32) -> Vector<R, D> {
+        self.now.velocity(self.row_of(id))
+    }
+    /// A declared column of an agent; `None` where no model declares it.
+    pub fn state(&self, id: u32, column: &str) -> Option<R> {
+        let at = self.declared.iter().position(|c| c.name == column)?;
+        Some(self.now.state[at][self.row_of(id)])
+    }
+    /// Steps made since the start.
+    pub fn step_number(&self) -> u64 {
+        self.step
+    }
+    /// Time since the start.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+    /// Number of threads.
+    pub fn threads(&self) -> usize {
+        self.workers.threads()
+    }
+    /// Supplies random quantities in place of draws, from now on.
+    pub fn inject(&mut self, injected: Injected) {
+        self.injected = Some(injected);
+    }
+    /// The resources.
+    pub fn resources(&self) -> Option<&Resources<R, D>> {
+        self.resources.as_ref()
+    }
+    /// The resources, to change them.
+    pub fn resources_mut(&mut self) -> Option<&mut Resources<R, D>> {
+        self.resources.as_mut()
+    }
+    /// The obstacles as they stand now.
+    pub fn obstacles(&self) -> &Obstacles<R, D> {
+        &self.obstacles
+    }
+    /// Contacts since the start: with members, obstacles, walls.
+    pub fn collisions(&self) -> (u64, u64, u64) {
+        (self.met_total[1], self.met_total[2], self.met_total[3])
+    }
+    /// What each agent met in the last step, by id; empty where nobody can meet anything.
+    pub fn met(&self) -> &[Met] {
+        &self.met
+    }
+    /// Errors of detection behind scanners, summed since the start.
+    pub fn detection_errors(&self) -> ErrorCount {
+        let mut total = ErrorCount::default();
+        for scratch in &self.scratch {
+            total += scratch.robot.errors;
+        }
+        total
+    }
+    /// The groups.
+    pub fn groups(&self) -> &[Group<R, D>] {
+        &self.groups
+    }
+    /// Mean number of others in any named set, over every `every`-th agent.
+    pub fn mean_neighbours(&mut self, every: usize) -> f64 {
+        let mut scratch = match self.scratch.pop() {
+            Some(scratch) => scratch,
+            None => return 0.0,
+        };
+        let (mut sum, mut count) = (0usize, 0usize);
+        for row in (0..self.now.len()).step_by(every.max(1)) {
+            let view = self.view();
+            let kernel = &self.groups[self.group_of(self.now.id[row])].kernel;
+            sum += kernel.neighbours(&view, row, &mut scratch);
+            count += 1;
+        }
+        self.scratch.push(scratch);
+        sum as f64 / count.max(1) as f64
+    }
+
+    /// The full state, from which a world of the same plan continues with the same bits.
+    pub fn save(&self) -> Checkpoint<R, D> {
+        let rows = self.frame().rows_by_id();
+        let mut columns = Columns::new(self.now.len(), self.declared.len());
+        for (id, &row) in rows.iter().enumerate() {
+            columns.set_position(id, self.now.position(row));
+            columns.set_velocity(id, self.now.velocity(row));
+            for (to, from) in columns.state.iter_mut().zip(&self.now.state) {
+                to[id] = from[row];
+            }
+        }
+        let mut memory = Vec::new();
+        self.memory.iter().for_each(|m| m.save(&mut memory));
+        Checkpoint {
+            columns,
+            step: self.step,
+            time: self.time,
+            resources: self.resources.clone(),
+            clocks: self.clocks.clone(),
+            memory,
+            met_total: self.met_total,
+        }
+    }
+    /// Continues from a saved state of a world of the same plan.
+    ///
+    /// # Errors
+    /// When the saved state has another number of agents or columns, or is damaged.
+    pub fn restore(&mut self, saved: &Checkpoint<R, D>) -> Result<(), WorldError> {
+        if saved.columns.len() != self.now.len() || saved.columns.state.len() != self.declared.len() {
+            return Err(WorldError::World(format!(
+                "the saved state has {} agents and {} columns, this world {} and {}",
+                saved.columns.len(),
+                saved.columns.state.len(),
+                self.now.len(),
+                self.declared.len()
+            )));
+        }
+        let mut rest = saved.memory.as_slice();
+        for memory in &mut self.memory {
+            let used = memory.load(rest);
+            rest = used
+                .and_then(|used| rest.get(used..))
+                .ok_or_else(|| WorldError::World("the saved memory of scans is damaged".into()))?;
+        }
+        self.now = saved.columns.clone();
+        self.step = saved.step;
+        self.time = saved.time;
+        self.resources = saved.resources.clone();
+        self.clocks = saved.clocks.clone();
+        self.met_total = saved.met_total;
+        self.live = None;
+        self.obstacles.advance(self.time);
+        self.settle();
+        Ok(())
+    }
+}
+
+/// A saved state.
+#[derive(Clone, Debug)]
+pub struct Checkpoint<R, const D: usize> {
+    columns: Columns<R, D>,
+    step: u64,
+    time: f64,
+    resources: Option<Resources<R, D>>,
+    clocks: Clocks<R, D>,
+    memory: Vec<f64>,
+    met_total: [u64; 4],
+}
+
+/// Unit headings, several rows at a time.
+struct Headings<'a, 'b, R, const D: usize> {
+    now: &'a Columns<R, D>,
+    first: usize,
+    to: &'a mut [&'b mut [R]; D],
+}
+impl<R: Scalar, const D: usize> space::lanes::Task<R> for Headings<'_, '_, R, D> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: space::lanes::Lanes<R>>(self) {
+        let rows = self.to[0].len();
+        let mut row = 0;
+        while row < rows {
+            let velocity: [L; D] = core::array::from_fn(|a| L::load(&self.now.velocity[a][self.first + row..]));
+            let unit = crate::motion::directions(&velocity, crate::motion::dot(&velocity, &velocity));
+            let count = (rows - row).min(L::WIDTH);
+            for a in 0..D {
+                if count == L::WIDTH {
+                    unit[a].store(&mut self.to[a][row..]);
+                } else {
+                    let mut last = [R::ZERO; crate::motion::WIDEST];
+                    unit[a].store(&mut last);
+                    self.to[a][row..].copy_from_slice(&last[..count]);
+                }
+            }
+            row += L::WIDTH;
+        }
+    }
+}
+
+fn libm_root(value: f64, degree: usize) -> f64 {
+    match degree {
+        1 => value,
+        2 => value.sqrt(),
+        _ => value.powf(1.0 / degree as f64),
+    }
+}
+
+fn in_group<R, const D: usize>(group: &GroupPlan<R, D>, problem: String) -> WorldError {
+    WorldError::Group { group: group.name.clone(), problem }
+}
+
+fn prepare<R: Scalar, const D: usize>(group: &GroupPlan<R, D>) -> Result<models::Prepared<R, D>, WorldError>
+where
+    Models: Catalogue<R, D>,
+{
+    match Models::prepare(&group.model, &group.parameters, group.count) {
+        Some(Ok(model)) => Ok(model),
+        Some(Err(error)) => Err(WorldError::Parameter { group: group.name.clone(), error }),
+        None => Err(match models::find(&group.model) {
+            Some(entry) => WorldError::Dimension { id: group.model.clone(), asked: D, works: entry.dimensions },
+            None => WorldError::Model {
+                id: group.model.clone(),
+                nearest: nearest(&group.model, models::LIST.iter().map(|e| e.card.id)).unwrap_or_default(),
+            },
+        }),
+    }
+}
+
+fn check_world<R: Scalar, const D: usize>(plan: &WorldPlan<R, D>) -> Result<(), WorldError> {
+    for a in 0..D {
+        if let Some(side) = plan.space.side(a)
+            && !(side > R::ZERO && side.finite())
+        {
+            return Err(WorldError::World(format!("side {a} of the space must be more than 0, found {side}")));
+        }
+    }
+    for (g, group) in plan.groups.iter().enumerate() {
+        if plan.groups[..g].iter().any(|other| other.name == group.name) {
+            return Err(WorldError::World(format!("two groups are named `{}`", group.name)));
+        }
+        if let Some(radius) = group.radius
+            && !(radius >= R::ZERO && radius.finite())
+        {
+            return Err(in_group(group, format!("the body radius must be 0 or more, found {radius}")));
+        }
+        group.mobility.check(D).map_err(|problem| in_group(group, problem))?;
+        let n = &group.noise;
+        for value in [n.computation, n.execution_direction, n.execution_speed] {
+            if !(value >= R::ZERO && value.finite()) {
+                return Err(in_group(group, format!("noise must be 0 or more, found {value}")));
+            }
+        }
+    }
+    if let Driver::Asynchronous { tick, period, delay, clock, .. } = plan.driver {
+        if !(tick > 0.0 && period > 0.0 && tick.is_finite() && period.is_finite()) {
+            return Err(WorldError::World(format!(
+                "the asynchronous driver needs a tick and a period of more than 0, found {tick} and {period}"
+            )));
+        }
+        if !(delay >= 0.0 && delay <= 1e4 * tick) {
+            return Err(WorldError::World(format!(
+                "the delay of readings must be from 0 to 10,000 ticks, found {delay}"
+            )));
+        }
+        if let crate::engine::plan::Clock::Regular { jitter } = clock
+            && !(0.0..1.0).contains(&jitter)
+        {
+            return Err(WorldError::World(format!("the jitter must be from 0 to below 1, found {jitter}")));
+        }
+    }
+    Ok(())
+}
+
+fn chosen_sets<R: Scalar, const D: usize>(
+    group: &GroupPlan<R, D>,
+    own: &[NamedSet<R, D>],
+) -> Result<(Vec<NamedSet<R, D>>, bool), WorldError> {
+    let mut sets = own.to_vec();
+    for (name, perception) in &group.sets {
+        let Some(set) = sets.iter_mut().find(|set| set.name == name) else {
+            let names: Vec<&str> = own.iter().map(|set| set.name).collect();
+            let there = if names.is_empty() { "it has none".into() } else { format!("it has {}", names.join(", ")) };
+            return Err(in_group(group, format!("`{}` has no named set `{name}`; {there}", group.model)));
+        };
+        set.perception = perception.clone();
+    }
+    for set in &sets {
+        set.perception.check().map_err(|problem| in_group(group, format!("set `{}`: {problem}", set.name)))?;
+        if let Perception::FixedSet(lists) = &set.perception
+            && lists.len() != group.count
+        {
+            let problem = format!("fixed_set needs a list for each of {} members, found {}", group.count, lists.len());
+            return Err(in_group(group, problem));
+        }
+    }
+    Ok((sets, group.sets.is_empty()))
+}
+
+fn refuse_what_a_scanner_cannot_give<R: Scalar, const D: usize>(
+    group: &GroupPlan<R, D>,
+    needs: crate::motion::Needs,
+    associated: bool,
+    dimension: usize,
+) -> Result<(), WorldError> {
+    let model = &group.model;
+    let problem = if dimension != 2 {
+        "a scanner is planar; use ideal sensing, or two dimensions".to_owned()
+    } else if needs.identity {
+        format!("`{model}` needs to know who the others are, which a scanner does not show; use ideal sensing")
+    } else if needs.state {
+        format!("`{model}` needs state of the others that a scanner does not show; use ideal sensing")
+    } else if needs.velocity && !associated {
+        format!(
+            "`{model}` needs velocities of the others, and a scanner shows positions only; \
+             add association of readings over time, or use ideal sensing"
+        )
+    } else {
+        return Ok(());
+    };
+    Err(in_group(group, problem))
+}
+
+fn check_start<R: Scalar, const D: usize>(
+    group: &GroupPlan<R, D>,
+    start: &crate::engine::plan::Start<R, D>,
+    declared: &[Column],
+) -> Result<(), WorldError> {
+    let count = group.count;
+    let fits = |what: &str, found: usize| {
+        if found == count { Ok(()) } else { Err(in_group(group, format!("{found} {what} for {count} members"))) }
+    };
+    fits("start positions", start.position.len())?;
+    if let Some(velocity) = &start.velocity {
+        fits("start velocities", velocity.len())?;
+    }
+    for (name, values) in &start.columns {
+        if !declared.iter().any(|c| c.name == name) {
+            let near = nearest(name, declared.iter().map(|c| c.name));
+            let hint = near.map_or_else(String::new, |n| format!("; did you mean `{n}`?"));
+            return Err(in_group(group, format!("`{}` declares no column `{name}`{hint}", group.model)));
+        }
+        fits(&format!("start values of `{name}`"), values.len())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,149 @@
+//! The models: one file each, one line each in the list below. Command line, files, help, docs, benches and law tests are all
+//! made from the list.
+
+use crate::card::Card;
+use crate::engine::{Kernel, Listed, Stages, Streamed};
+use crate::motion::{Law, Model, Needs, Stream, Summed};
+use crate::parameters::{Descriptor, ParameterError, Parameters, Scalar, Values};
+use crate::physics::Contact;
+use crate::selection::NamedSet;
+use space::Column;
+
+#[cfg(test)]
+pub(crate) mod oracle;
+
+/// What a model says of itself once its parameters are known: what the engine needs to build a group.
+pub struct Prepared<R, const D: usize> {
+    pub(crate) sets: Vec<NamedSet<R, D>>,
+    pub(crate) columns: &'static [Column],
+    pub(crate) needs: Needs,
+    pub(crate) time_step: R,
+    pub(crate) obstacle_reach: Option<R>,
+    pub(crate) body_radius: R,
+    pub(crate) contact: Contact,
+    pub(crate) initial_speed: R,
+    /// Finishes the kernel when the stages are resolved.
+    pub(crate) build: Box<dyn FnOnce(Stages<R, D>) -> Box<dyn Kernel<R, D>>>,
+    /// The neighbourhood a streaming law sums over, for choosing the index.
+    pub(crate) stream_reach: Option<R>,
+}
+
+fn prepared<R: Scalar, const D: usize, M: Law<R>>(
+    law: M,
+    members: usize,
+    sets: fn(&M) -> Vec<NamedSet<R, D>>,
+    stream_reach: Option<R>,
+    build: fn(M, Stages<R, D>) -> Box<dyn Kernel<R, D>>,
+) -> Result<Prepared<R, D>, ParameterError> {
+    law.check(members).map_err(ParameterError::Together)?;
+    Ok(Prepared {
+        sets: sets(&law),
+        columns: M::columns(),
+        needs: law.needs(),
+        time_step: law.time_step(),
+        obstacle_reach: law.obstacle_reach(),
+        body_radius: law.body_radius(),
+        contact: law.contact(),
+        initial_speed: law.initial_speed(),
+        stream_reach,
+        build: Box::new(move |stages| build(law, stages)),
+    })
+}
+
+/// A law that is given lists.
+fn lists<R: Scalar, const D: usize, M: Law<R> + Model<R, D>>(
+    values: &Values,
+    members: usize,
+) -> Result<Prepared<R, D>, ParameterError> {
+    prepared(M::from_values(values)?, members, M::sets, None, |law, stages| Box::new(Listed { law, stages }))
+}
+
+/// A law that sums neighbour by neighbour.
+fn streams<R: Scalar, const D: usize, M: Stream<R, D>>(
+    values: &Values,
+    members: usize,
+) -> Result<Prepared<R, D>, ParameterError> {
+    let law = M::from_values(values)?;
+    let reach = law.reach();
+    prepared(law, members, M::sets, Some(reach), |law, stages| {
+        Box::new(Streamed { listed: Listed { law: Summed(law), stages } })
+    })
+}
+
+/// A model of the list.
+pub struct Entry {
+    /// Its description of itself.
+    pub card: &'static Card,
+    /// Dimensions it works in.
+    pub dimensions: &'static [usize],
+    /// Its parameters.
+    pub parameters: fn() -> Vec<Descriptor>,
+    /// Its declared columns.
+    pub columns: fn() -> &'static [Column],
+}
+
+/// The models that work in a space of `D` dimensions.
+pub trait Catalogue<R: Scalar, const D: usize> {
+    /// Prepares a model; `None` where none of this id works in `D` dimensions.
+    fn prepare(id: &str, values: &Values, members: usize) -> Option<Result<Prepared<R, D>, ParameterError>>;
+}
+
+/// Implements [`Catalogue`] for each number of dimensions.
+pub struct Models;
+
+macro_rules! models {
+    ($($way:ident $file:ident::$name:ident in [$($d:tt),+];)*) => {
+        $(pub mod $file;)*
+        /// All models, in the order of the list.
+        pub const LIST: &[Entry] = &[$(Entry {
+            card: &<$file::$name<f64> as Law<f64>>::CARD,
+            dimensions: &[$($d),+],
+            parameters: <$file::$name<f64> as Parameters>::descriptors,
+            columns: <$file::$name<f64> as Law<f64>>::columns,
+        },)*];
+        models!(@catalogue 1 $($way $file::$name in [$($d),+];)*);
+        models!(@catalogue 2 $($way $file::$name in [$($d),+];)*);
+        models!(@catalogue 3 $($way $file::$name in [$($d),+];)*);
+    };
+    (@catalogue $dimension:tt $($way:ident $file:ident::$name:ident in [$($d:tt),+];)*) => {
+        impl<R: Scalar> Catalogue<R, $dimension> for Models {
+            fn prepare(
+                id: &str,
+                values: &Values,
+                members: usize,
+            ) -> Option<Result<Prepared<R, $dimension>, ParameterError>> {
+                $(if id == stringify!($file) {
+                    return models!(@arm $dimension [$($d),+] $way $file::$name (values) (members));
+                })*
+                let _ = (values, members);
+                None
+            }
+        }
+    };
+    (@arm 1 [1] $($rest:tt)*) => { models!(@call 1 $($rest)*) };
+    (@arm 1 [1, 2] $($rest:tt)*) => { models!(@call 1 $($rest)*) };
+    (@arm 1 [1, 2, 3] $($rest:tt)*) => { models!(@call 1 $($rest)*) };
+    (@arm 2 [2] $($rest:tt)*) => { models!(@call 2 $($rest)*) };
+    (@arm 2 [1, 2] $($rest:tt)*) => { models!(@call 2 $($rest)*) };
+    (@arm 2 [2, 3] $($rest:tt)*) => { models!(@call 2 $($rest)*) };
+    (@arm 2 [1, 2, 3] $($rest:tt)*) => { models!(@call 2 $($rest)*) };
+    (@arm 3 [3] $($rest:tt)*) => { models!(@call 3 $($rest)*) };
+    (@arm 3 [2, 3] $($rest:tt)*) => { models!(@call 3 $($rest)*) };
+    (@arm 3 [1, 2, 3] $($rest:tt)*) => { models!(@call 3 $($rest)*) };
+    (@arm $d:tt [$($other:tt),+] $($rest:tt)*) => { None };
+    (@call $d:tt $way:ident $file:ident::$name:ident ($values:ident) ($members:ident)) => {
+        Some($way::<R, $d, $file::$name<R>>($values, $members))
+    };
+}
+
+// one line a model: whether it streams or is given lists, file and type, dimensions
+models! {
+    streams vicsek_1995::Vicsek1995 in [2, 3];
+    streams couzin_2002::Couzin2002 in [2, 3];
+    lists viscido_snn::ViscidoSnn in [2, 3];
+}
+
+/// The model of an id.
+pub fn find(id: &str) -> Option<&'static Entry> {
+    LIST.iter().find(|entry| entry.card.id == id)
+}

@@ -1,0 +1,578 @@
+//! Motion computation, the fourth stage: what a law is given and what it gives back.
+//!
+//! A law is a [`Model`]: it sees itself ([`Me`]), the detected members with their named sets ([`Percepts`]), and its random
+//! quantities ([`Draws`]), and returns a [`Motion`]. A law that sums neighbour by neighbour is written as a [`Stream`]
+//! instead, once, for plain numbers and vector lanes alike; [`Summed`] makes a `Model` of it, by the same code.
+
+use crate::card::Card;
+use crate::parameters::{Parameters, Scalar};
+use crate::physics::Contact;
+use crate::selection::NamedSet;
+use space::lanes::{Lanes, Mask};
+use space::random::{Purpose, Stream as DrawStream};
+use space::{Column, Columns, Real, Space, Vector};
+use std::collections::BTreeMap;
+
+/// The motion that a law wants for one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion<R, const D: usize> {
+    /// Velocity after the step.
+    pub velocity: Vector<R, D>,
+    /// Displacement in the step.
+    pub displacement: Vector<R, D>,
+}
+
+impl<R: Real, const D: usize> Motion<R, D> {
+    /// Moves with the new velocity: `x' = x + v' dt`.
+    #[inline(always)]
+    pub fn new_velocity(velocity: Vector<R, D>, dt: R) -> Self {
+        Self { velocity, displacement: velocity * dt }
+    }
+    /// Moves with the velocity before the update: `x' = x + v dt`.
+    #[inline(always)]
+    pub fn old_velocity(before: Vector<R, D>, velocity: Vector<R, D>, dt: R) -> Self {
+        Self { velocity, displacement: before * dt }
+    }
+    /// A way-point model's step: the displacement is the velocity too.
+    #[inline(always)]
+    pub fn step(displacement: Vector<R, D>) -> Self {
+        Self { velocity: displacement, displacement }
+    }
+    /// Every number finite.
+    #[inline(always)]
+    pub fn finite(&self) -> bool {
+        self.velocity.finite() && self.displacement.finite()
+    }
+}
+
+/// Random quantities supplied by a caller, per agent and by name; what is not supplied takes its neutral value.
+#[derive(Clone, Debug, Default)]
+pub struct Injected {
+    /// `[agents][components]` by name.
+    pub values: BTreeMap<String, Vec<Vec<f64>>>,
+}
+
+/// The random quantities of one agent's decision.
+#[derive(Clone, Copy)]
+pub struct Draws<'a> {
+    /// Where live draws come from.
+    pub stream: DrawStream,
+    /// Supplied quantities in place of live draws.
+    pub injected: Option<&'a Injected>,
+}
+
+impl<'a> Draws<'a> {
+    /// The draws of agent `id` in `step`.
+    #[inline(always)]
+    pub fn new(seed: u64, step: u64, id: u32, injected: Option<&'a Injected>) -> Self {
+        Self { stream: DrawStream { seed, purpose: Purpose::Behaviour, step, agent: id }, injected }
+    }
+    /// A scalar quantity: supplied by name, or drawn by `law`; `neutral` where others are supplied but not this one.
+    #[inline(always)]
+    pub fn number<R: Real>(&self, name: &str, neutral: f64, law: impl FnOnce(&DrawStream) -> f64) -> R {
+        R::of(match self.injected {
+            None => law(&self.stream),
+            Some(injected) => self.supplied(injected, name).and_then(|v| v.first().copied()).unwrap_or(neutral),
+        })
+    }
+    /// A vector quantity; the zero vector is neutral.
+    #[inline(always)]
+    pub fn vector<R: Real, const D: usize>(
+        &self,
+        name: &str,
+        law: impl FnOnce(&DrawStream) -> Vector<R, D>,
+    ) -> Vector<R, D> {
+        match self.injected {
+            None => law(&self.stream),
+            Some(injected) => self.supplied(injected, name).map_or(Vector::ZERO, |v| Vector::of(v)),
+        }
+    }
+    /// A quantity that only a caller can supply (its live value comes from elsewhere).
+    pub fn given(&self, name: &str) -> Option<f64> {
+        self.supplied(self.injected?, name).and_then(|v| v.first().copied())
+    }
+    fn supplied(&self, injected: &'a Injected, name: &str) -> Option<&'a Vec<f64>> {
+        injected.values.get(name)?.get(self.stream.agent as usize)
+    }
+}
+
+/// An obstacle or wall as a member perceives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearObstacle<R, const D: usize> {
+    /// From me to the nearest point of its surface.
+    pub offset: Vector<R, D>,
+    /// Distance to the surface, negative inside.
+    pub distance: R,
+    /// Unit vector from the obstacle to free space at my place; zero where undefined.
+    pub away: Vector<R, D>,
+    /// Radius of a ball, infinite for anything flat.
+    pub radius: R,
+}
+
+/// A resource item as a member perceives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearItem<R, const D: usize> {
+    /// From me to the item.
+    pub offset: Vector<R, D>,
+    /// Its number.
+    pub item: u32,
+}
+
+/// The world around a deciding agent, as far as stages beside the members' own concern it.
+pub struct Around<'a, R, const D: usize> {
+    /// Obstacles and walls within the model's reach.
+    pub obstacles: &'a [NearObstacle<R, D>],
+    /// The nearest resource item, where there are any.
+    pub item: Option<NearItem<R, D>>,
+    /// The newest true state, for laws whose bounds use it whatever was sensed.
+    pub truth: &'a Columns<R, D>,
+    /// Row of this agent in `truth`.
+    pub row: usize,
+    /// Rows by id in `truth`, where rows are not in the order of ids.
+    pub rows: Option<&'a [u32]>,
+    /// The space.
+    pub space: &'a Space<R, D>,
+    /// First id of the group, and its number of members.
+    pub group: (u32, u32),
+}
+
+impl<R: Real, const D: usize> Around<'_, R, D> {
+    /// The row of an agent in `truth`.
+    #[inline]
+    pub fn row_of(&self, id: u32) -> usize {
+        self.rows.map_or(id as usize, |rows| rows[id as usize] as usize)
+    }
+}
+
+/// The agent that decides.
+pub struct Me<'a, R, const D: usize> {
+    /// Index in the whole world.
+    pub id: u32,
+    /// Position, as the member itself knows it.
+    pub position: Vector<R, D>,
+    /// Velocity before the step.
+    pub velocity: Vector<R, D>,
+    /// Own values of the model's declared columns, in their order; what is written here is the next state.
+    pub own: &'a mut [R],
+    /// The rest of the world.
+    pub around: Around<'a, R, D>,
+    /// Receives the named components of the motion computation, when somebody looks.
+    pub notes: Option<&'a mut Vec<(&'static str, Vector<R, D>)>>,
+}
+
+impl<R: Real, const D: usize> Me<'_, R, D> {
+    /// Unit vector of the velocity; zero at rest.
+    #[inline(always)]
+    pub fn heading(&self) -> Vector<R, D> {
+        self.velocity.unit()
+    }
+    /// Index in the own group.
+    #[inline(always)]
+    pub fn member(&self) -> usize {
+        (self.id - self.around.group.0) as usize
+    }
+    /// Notes a component of the motion computation for the viewer.
+    #[inline(always)]
+    pub fn note(&mut self, name: &'static str, component: Vector<R, D>) {
+        if let Some(notes) = &mut self.notes {
+            notes.push((name, component));
+        }
+    }
+}
+
+/// The detected members of one agent, as columns, with the named sets that selection put them in.
+#[derive(Clone, Copy)]
+pub struct Percepts<'a, R, const D: usize> {
+    /// From me to each, `[D][percepts]`.
+    pub offset: [&'a [R]; D],
+    /// Squared distances.
+    pub squared: &'a [R],
+    /// Row of each in `others`.
+    pub row: &'a [u32],
+    /// Bit `s` is set for members of named set `s`.
+    pub sets: &'a [u32],
+    /// Where velocities and declared columns of the percepts stand: the state itself, or what was sensed of it.
+    pub others: &'a Columns<R, D>,
+    /// Column in `others` of each of the model's declared columns.
+    pub columns: &'a [usize],
+}
+
+impl<R: Real, const D: usize> Percepts<'_, R, D> {
+    /// Number of detected members.
+    #[inline(always)]
+    pub fn len(&self) -> usize {
+        self.row.len()
+    }
+    /// Whether nobody is detected.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.row.is_empty()
+    }
+    /// Displacement from me to percept `k`.
+    #[inline(always)]
+    pub fn offset(&self, k: usize) -> Vector<R, D> {
+        Vector(core::array::from_fn(|a| self.offset[a][k]))
+    }
+    /// Distance of percept `k`.
+    #[inline(always)]
+    pub fn distance(&self, k: usize) -> R {
+        self.squared[k].root()
+    }
+    /// Unit vector to percept `k`; zero when coincident.
+    #[inline(always)]
+    pub fn direction(&self, k: usize) -> Vector<R, D> {
+        let distance = self.distance(k);
+        if distance > R::TINY { self.offset(k) / distance } else { Vector::ZERO }
+    }
+    /// Velocity of percept `k`; zero where it is not known yet.
+    #[inline(always)]
+    pub fn velocity(&self, k: usize) -> Vector<R, D> {
+        self.others.velocity(self.row[k] as usize)
+    }
+    /// Heading of percept `k`.
+    #[inline(always)]
+    pub fn heading(&self, k: usize) -> Vector<R, D> {
+        self.velocity(k).unit()
+    }
+    /// Id of percept `k`, for laws that need identities.
+    #[inline(always)]
+    pub fn id(&self, k: usize) -> u32 {
+        self.others.id[self.row[k] as usize]
+    }
+    /// The model's declared column `column` of percept `k`.
+    #[inline(always)]
+    pub fn state(&self, k: usize, column: usize) -> R {
+        self.others.state[self.columns[column]][self.row[k] as usize]
+    }
+    /// Whether percept `k` is in a named set.
+    #[inline(always)]
+    pub fn is_in(&self, k: usize, set: usize) -> bool {
+        self.sets[k] >> set & 1 == 1
+    }
+    /// The members of a named set, in canonical order.
+    #[inline(always)]
+    pub fn set(&self, set: usize) -> impl Iterator<Item = usize> + '_ {
+        (0..self.len()).filter(move |&k| self.is_in(k, set))
+    }
+    /// Size of a named set.
+    #[inline(always)]
+    pub fn count(&self, set: usize) -> usize {
+        self.set(set).count()
+    }
+    /// The nearest member of a named set; ties go to the lower id (to the earlier reading, where ids are readings).
+    #[inline]
+    pub fn nearest(&self, set: usize) -> Option<usize> {
+        let mut best: Option<usize> = None;
+        for k in self.set(set) {
+            let better = best.is_none_or(|b| {
+                self.squared[k] < self.squared[b] || (self.squared[k] == self.squared[b] && self.id(k) < self.id(b))
+            });
+            if better {
+                best = Some(k);
+            }
+        }
+        best
+    }
+}
+
+/// What a law needs to know of others beyond where they are; a sensing that cannot give it is refused at load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Needs {
+    /// Velocities or headings of others.
+    pub velocity: bool,
+    /// Who they are.
+    pub identity: bool,
+    /// Declared state columns of others.
+    pub state: bool,
+}
+
+/// What every law has, whichever way it is written.
+pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
+    /// The model's description.
+    const CARD: Card;
+    /// Declared state columns.
+    fn columns() -> &'static [Column] {
+        &[]
+    }
+    /// What it needs to know of others.
+    fn needs(&self) -> Needs {
+        Needs { velocity: true, ..Needs::default() }
+    }
+    /// Length of a step in time.
+    fn time_step(&self) -> R {
+        R::ONE
+    }
+    /// How far away obstacles and walls matter; `None` where the law has no obstacle stage.
+    fn obstacle_reach(&self) -> Option<R> {
+        None
+    }
+    /// Body radius when the scenario gives none.
+    fn body_radius(&self) -> R {
+        R::ZERO
+    }
+    /// What happens on contact when the scenario does not say: the move is not made.
+    fn contact(&self) -> Contact {
+        Contact::Refuse
+    }
+    /// Speed at the start when the scenario gives none.
+    fn initial_speed(&self) -> R {
+        R::ONE
+    }
+    /// Checks that need the number of members (lists with one entry each) or concern several parameters at once.
+    ///
+    /// # Errors
+    /// A sentence that says what does not fit.
+    fn check(&self, _members: usize) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// Completes an initial state: which columns were given and which follow from others.
+pub struct Start<'a, R, const D: usize> {
+    /// Index in the group.
+    pub member: usize,
+    /// Draws of the initial state (purpose 1, step 2^41, the member's slots).
+    pub draws: DrawStream,
+    /// Velocity; to be set if it was not given and follows from the columns.
+    pub velocity: &'a mut Vector<R, D>,
+    /// Whether the velocity was given.
+    pub velocity_given: bool,
+    /// The model's declared columns.
+    pub own: &'a mut [R],
+    /// Which of them were given.
+    pub given: &'a [bool],
+}
+
+/// A law as the engine sees it.
+pub trait Model<R: Scalar, const D: usize>: Send + Sync + 'static {
+    /// The named sets of its selection stage, at most 32, with their default perception functions.
+    fn sets(&self) -> Vec<NamedSet<R, D>>;
+    /// Fills in what an initial state leaves out.
+    fn complete(&self, _start: &mut Start<'_, R, D>) {}
+    /// The named sets of all percepts at once, as [`Self::sets`] defines them, where a law can do that faster than the
+    /// perception functions one by one; false, with nothing written, where it cannot.
+    fn select(&self, _heading: Vector<R, D>, _offset: &[&[R]; D], _squared: &[R], _sets: &mut [u32]) -> bool {
+        false
+    }
+    /// The wanted motion.
+    fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D>;
+}
+
+/// One agent per lane, deciding.
+#[derive(Clone, Copy)]
+pub struct MeLanes<L, const D: usize> {
+    /// Velocities.
+    pub velocity: [L; D],
+    /// Unit headings; zero at rest.
+    pub heading: [L; D],
+}
+
+/// The neighbour that all lanes look at.
+#[derive(Clone, Copy)]
+pub struct Other<'a, R, const D: usize> {
+    /// Velocity.
+    pub velocity: Vector<R, D>,
+    /// Unit heading; zero at rest. Only valid where [`Stream::HEADINGS`] says so.
+    pub heading: Vector<R, D>,
+    /// Row in `others`.
+    pub row: usize,
+    /// Where declared columns stand.
+    pub others: &'a Columns<R, D>,
+    /// Column in `others` of each of the model's declared columns.
+    pub columns: &'a [usize],
+}
+
+impl<R: Real, const D: usize> Other<'_, R, D> {
+    /// A declared column of this neighbour.
+    #[inline(always)]
+    pub fn state(&self, column: usize) -> R {
+        self.others.state[self.columns[column]][self.row]
+    }
+}
+
+/// Named sets of a streaming law, one mask each; those a law does not use stay false.
+pub type SetMasks<M> = [M; 4];
+
+/// A law that can be summed neighbour by neighbour.
+pub trait Stream<R: Scalar, const D: usize>: Law<R> {
+    /// The running sums.
+    type Sums<L: Lanes<R>>: LaneSums<R, L, One = Self::Sums<R>>;
+    /// Whether headings of neighbours are used (they are then computed once a step).
+    const HEADINGS: bool = true;
+    /// The named sets, at most four, as perception functions (what [`Self::classify`] computes).
+    fn sets(&self) -> Vec<NamedSet<R, D>>;
+    /// Distance below which others can matter; infinite for all of them.
+    fn reach(&self) -> R;
+    /// The named sets of a neighbour at `offset` whose squared distance is below the square of the reach.
+    fn classify<L: Lanes<R>>(
+        &self,
+        me: &MeLanes<L, D>,
+        offset: &[L; D],
+        squared: L,
+        other: &Other<'_, R, D>,
+    ) -> SetMasks<L::Mask>;
+    /// Adds a neighbour to the sums of the lanes whose masks hold.
+    fn gather<L: Lanes<R>>(
+        &self,
+        sums: &mut Self::Sums<L>,
+        me: &MeLanes<L, D>,
+        offset: &[L; D],
+        squared: L,
+        other: &Other<'_, R, D>,
+        sets: &SetMasks<L::Mask>,
+    );
+    /// The wanted motion from the sums over all neighbours.
+    fn finish(&self, me: &mut Me<'_, R, D>, sums: &Self::Sums<R>, draws: &Draws<'_>) -> Motion<R, D>;
+    /// Fills in what an initial state leaves out.
+    fn complete(&self, _start: &mut Start<'_, R, D>) {}
+}
+
+/// A streaming law given a list: the same sums, taken over it in its order.
+pub struct Summed<T>(pub T);
+
+impl<R: Scalar, const D: usize, T: Stream<R, D>> Model<R, D> for Summed<T> {
+    fn sets(&self) -> Vec<NamedSet<R, D>> {
+        self.0.sets()
+    }
+    fn complete(&self, start: &mut Start<'_, R, D>) {
+        self.0.complete(start);
+    }
+    #[inline]
+    fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D> {
+        let lanes = MeLanes { velocity: me.velocity.0, heading: me.velocity.unit().0 };
+        let mut sums = T::Sums::<R>::zero();
+        for k in 0..seen.len() {
+            let bits = seen.sets[k];
+            if bits == 0 {
+                continue;
+            }
+            let other = Other {
+                velocity: seen.velocity(k),
+                heading: if T::HEADINGS { seen.heading(k) } else { Vector::ZERO },
+                row: seen.row[k] as usize,
+                others: seen.others,
+                columns: seen.columns,
+            };
+            let sets = core::array::from_fn(|s| bits >> s & 1 == 1);
+            self.0.gather::<R>(&mut sums, &lanes, &seen.offset(k).0, seen.squared[k], &other, &sets);
+        }
+        self.0.finish(me, &sums, draws)
+    }
+}
+
+/// Sums held in lanes: arrays and tuples of them.
+pub trait LaneSums<R: Real, L: Lanes<R>>: Copy {
+    /// The sums of one lane.
+    type One: Copy;
+    /// All zero.
+    fn zero() -> Self;
+    /// Writes the sums of each lane to its place.
+    fn split(&self, to: &mut [Self::One]);
+    /// All zero, for one lane.
+    fn zero_one() -> Self::One;
+}
+
+/// No lane type is wider.
+pub const WIDEST: usize = 16;
+
+impl<R: Real, L: Lanes<R>, const N: usize> LaneSums<R, L> for [L; N] {
+    type One = [R; N];
+    #[inline(always)]
+    fn zero() -> Self {
+        [L::splat(R::ZERO); N]
+    }
+    #[inline(always)]
+    fn split(&self, to: &mut [[R; N]]) {
+        for n in 0..N {
+            let mut lane = [R::ZERO; WIDEST];
+            self[n].store(&mut lane);
+            for (to, &from) in to.iter_mut().zip(&lane[..L::WIDTH]) {
+                to[n] = from;
+            }
+        }
+    }
+    #[inline(always)]
+    fn zero_one() -> [R; N] {
+        [R::ZERO; N]
+    }
+}
+
+macro_rules! tuple_sums {
+    ($($t:ident $k:tt),*) => {
+        impl<R: Real, L: Lanes<R>, $($t: LaneSums<R, L>),*> LaneSums<R, L> for ($($t,)*) {
+            type One = ($($t::One,)*);
+            #[inline(always)]
+            fn zero() -> Self {
+                ($($t::zero(),)*)
+            }
+            #[inline(always)]
+            fn split(&self, to: &mut [Self::One]) {
+                $({
+                    let mut lane = [$t::zero_one(); WIDEST];
+                    self.$k.split(&mut lane[..L::WIDTH]);
+                    for (to, &from) in to.iter_mut().zip(&lane[..L::WIDTH]) {
+                        to.$k = from;
+                    }
+                })*
+            }
+            #[inline(always)]
+            fn zero_one() -> Self::One {
+                ($($t::zero_one(),)*)
+            }
+        }
+    };
+}
+tuple_sums!(A 0, B 1);
+tuple_sums!(A 0, B 1, C 2);
+tuple_sums!(A 0, B 1, C 2, E 3);
+tuple_sums!(A 0, B 1, C 2, E 3, F 4);
+tuple_sums!(A 0, B 1, C 2, E 3, F 4, G 5);
+
+/// Adds a broadcast or lane-wise vector to sums, where the mask holds.
+#[inline(always)]
+pub fn add_where<R: Real, L: Lanes<R>, const D: usize>(sums: &mut [L; D], mask: L::Mask, add: [L; D]) {
+    for a in 0..D {
+        sums[a] = sums[a].add_where(mask, add[a]);
+    }
+}
+
+/// The same vector in every lane.
+#[inline(always)]
+pub fn splat<R: Real, L: Lanes<R>, const D: usize>(vector: Vector<R, D>) -> [L; D] {
+    core::array::from_fn(|a| L::splat(vector.0[a]))
+}
+
+/// Unit vectors of offsets whose squared lengths are known; zero where the length is at most 1e-12.
+#[inline(always)]
+pub fn directions<R: Real, L: Lanes<R>, const D: usize>(offset: &[L; D], squared: L) -> [L; D] {
+    let distance = squared.square_root();
+    let apart = L::splat(R::TINY).less(distance);
+    let zero = L::splat(R::ZERO);
+    core::array::from_fn(|a| L::choose(apart, offset[a] / distance, zero))
+}
+
+/// Inner product, lane by lane.
+#[inline(always)]
+pub fn dot<R: Real, L: Lanes<R>, const D: usize>(a: &[L; D], b: &[L; D]) -> L {
+    let mut sum = a[0] * b[0];
+    for k in 1..D {
+        sum = sum + a[k] * b[k];
+    }
+    sum
+}
+
+/// Where a neighbour lies within a cone of full opening given by `cos_half` about the heading. All-round sight for a member
+/// at rest; a coincident member is always seen.
+#[inline(always)]
+pub fn in_view<R: Real, L: Lanes<R>, const D: usize>(
+    heading: &[L; D],
+    offset: &[L; D],
+    squared: L,
+    cos_half: R,
+) -> L::Mask {
+    let distance = squared.square_root();
+    let ahead = (L::splat(cos_half) * distance).less_equal(dot(heading, offset));
+    let coincident = distance.less_equal(L::splat(R::TINY));
+    let resting = dot(heading, heading).less_equal(L::splat(R::ZERO));
+    ahead.or(coincident).or(resting)
+}

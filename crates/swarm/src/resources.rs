@@ -1,0 +1,267 @@
+//! Resources that agents consume, and what consumption and its lack do to them.
+
+use space::random::{Purpose, uniform, unit_vector};
+use space::{Columns, Real, Space, Vector};
+
+/// What a consumed item does to a declared column of its consumer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gain<R> {
+    /// Name of the declared column.
+    pub column: String,
+    /// Added when an item is consumed.
+    pub amount: R,
+    /// The column is never raised above this.
+    pub capacity: R,
+}
+
+/// When and where a consumed item comes back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Respawn {
+    /// Not at all.
+    Never,
+    /// After this time (0: at once), uniformly at random in the space.
+    After(f64),
+}
+
+/// What it costs to live.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Metabolism<R> {
+    /// Declared column that pays.
+    pub energy: String,
+    /// Paid per time.
+    pub cost: R,
+    /// Declared column from which what energy cannot pay is taken; an agent at 0 is dead.
+    pub health: String,
+    /// Health taken per unpaid unit of energy.
+    pub starvation: R,
+}
+
+/// The plan of the resources of a world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResourcePlan<R, const D: usize> {
+    /// Places of the items at the start.
+    pub items: Vec<Vector<R, D>>,
+    /// An item closer than this is consumed, by the nearest living agent; ties go to the lower id.
+    pub within: R,
+    /// What it gives.
+    pub gains: Vec<Gain<R>>,
+    /// Its return.
+    pub respawn: Respawn,
+    /// Cost of living.
+    pub metabolism: Option<Metabolism<R>>,
+}
+
+/// The resources of a running world.
+#[derive(Clone, Debug)]
+pub struct Resources<R, const D: usize> {
+    plan: ResourcePlan<R, D>,
+    gains: Vec<usize>,
+    energy: usize,
+    health: Option<usize>,
+    /// Place of each item.
+    pub place: Vec<Vector<R, D>>,
+    /// Time at which an absent item returns; `None` while it is there.
+    pub absent_until: Vec<Option<f64>>,
+    /// Who consumed each item in the last step.
+    pub consumer: Vec<Option<u32>>,
+    /// Items consumed since the start.
+    pub consumed: u64,
+    /// Where consumed items return, supplied by a caller.
+    pub respawn_at: Option<Vec<Vector<R, D>>>,
+}
+
+impl<R: Real, const D: usize> Resources<R, D> {
+    /// Resolves the plan's columns.
+    ///
+    /// # Errors
+    /// A sentence that names a column no model declares, or a value that cannot be.
+    pub fn new(plan: ResourcePlan<R, D>, column: impl Fn(&str) -> Option<usize>) -> Result<Self, String> {
+        let find = |name: &str| {
+            column(name)
+                .ok_or_else(|| format!("resources change the column `{name}`, which no model of this world declares"))
+        };
+        if !(plan.within >= R::ZERO) {
+            return Err(format!("the distance of consumption must be 0 or more, found {}", plan.within));
+        }
+        if plan.items.iter().any(|item| !item.finite()) {
+            return Err("an item's place is not a finite point".into());
+        }
+        let gains = plan.gains.iter().map(|gain| find(&gain.column)).collect::<Result<_, _>>()?;
+        let (energy, health) = match &plan.metabolism {
+            Some(m) => (find(&m.energy)?, Some(find(&m.health)?)),
+            None => (0, None),
+        };
+        let items = plan.items.len();
+        Ok(Self {
+            place: plan.items.clone(),
+            plan,
+            gains,
+            energy,
+            health,
+            absent_until: vec![None; items],
+            consumer: vec![None; items],
+            consumed: 0,
+            respawn_at: None,
+        })
+    }
+    /// The column whose zero means death, where agents can die.
+    pub fn mortality(&self) -> Option<usize> {
+        self.health
+    }
+    /// The nearest item that is there; ties go to the lower number.
+    #[inline]
+    pub fn nearest(&self, space: &Space<R, D>, from: Vector<R, D>) -> Option<(u32, Vector<R, D>)> {
+        let mut best: Option<(u32, Vector<R, D>, R)> = None;
+        for (item, &place) in self.place.iter().enumerate() {
+            if self.absent_until[item].is_some() {
+                continue;
+            }
+            let offset = space.offset(from, place);
+            let squared = offset.length_squared();
+            if best.is_none_or(|(_, _, least)| squared < least) {
+                best = Some((item as u32, offset, squared));
+            }
+        }
+        best.map(|(item, offset, _)| (item, offset))
+    }
+    /// Consumption in item order, then metabolism and death, after everyone moved. `row_of` gives rows by id.
+    pub fn update(
+        &mut self,
+        space: &Space<R, D>,
+        columns: &mut Columns<R, D>,
+        row_of: impl Fn(u32) -> usize,
+        seed: u64,
+        step: u64,
+        time: f64,
+        dt: R,
+    ) {
+        let agents = columns.len() as u32;
+        let alive = |columns: &Columns<R, D>, row: usize| self.health.is_none_or(|h| columns.state[h][row] > R::ZERO);
+        for item in 0..self.place.len() {
+            self.consumer[item] = None;
+            if let Some(until) = self.absent_until[item] {
+                if time >= until {
+                    self.absent_until[item] = None;
+                }
+                continue;
+            }
+            let mut best: Option<(usize, u32, R)> = None;
+            let limit = self.plan.within * self.plan.within;
+            for id in 0..agents {
+                let row = row_of(id);
+                let squared = space.offset(columns.position(row), self.place[item]).length_squared();
+                if squared < limit && alive(columns, row) && best.is_none_or(|(_, _, least)| squared < least) {
+                    best = Some((row, id, squared));
+                }
+            }
+            let Some((row, id, _)) = best else { continue };
+            for (gain, &column) in self.plan.gains.iter().zip(&self.gains) {
+                let value = &mut columns.state[column][row];
+                *value = (*value + gain.amount).least(gain.capacity.most(*value));
+            }
+            self.consumer[item] = Some(id);
+            self.consumed += 1;
+            let anew = match &self.respawn_at {
+                Some(places) => places.get(item).copied().unwrap_or(self.place[item]),
+                None => somewhere(space, self.place[item], seed, step, item as u32),
+            };
+            match self.plan.respawn {
+                Respawn::Never => self.absent_until[item] = Some(f64::INFINITY),
+                Respawn::After(delay) if delay > 0.0 => {
+                    self.absent_until[item] = Some(time + delay);
+                    self.place[item] = anew;
+                }
+                Respawn::After(_) => self.place[item] = anew,
+            }
+        }
+        if let (Some(metabolism), Some(health)) = (&self.plan.metabolism, self.health) {
+            let cost = metabolism.cost * dt;
+            for row in 0..columns.len() {
+                if columns.state[health][row] <= R::ZERO {
+                    continue;
+                }
+                let energy = columns.state[self.energy][row];
+                let unpaid = (cost - energy).most(R::ZERO);
+                columns.state[self.energy][row] = (energy - cost).most(R::ZERO);
+                let left = columns.state[health][row] - unpaid * metabolism.starvation;
+                columns.state[health][row] = left.most(R::ZERO);
+            }
+        }
+    }
+}
+
+/// A place for an item that returns: uniform over bounded axes, around its old place (normal, sd 1) on open ones.
+fn somewhere<R: Real, const D: usize>(
+    space: &Space<R, D>,
+    old: Vector<R, D>,
+    seed: u64,
+    step: u64,
+    item: u32,
+) -> Vector<R, D> {
+    let draw = |slot: u32| uniform(seed, Purpose::Environment, step, item.wrapping_mul(8).wrapping_add(slot));
+    let around: Vector<R, D> = unit_vector(draw(4), draw(5));
+    Vector(core::array::from_fn(|a| match space.side(a) {
+        Some(side) => side * R::of(draw(a as u32)),
+        None => old.0[a] + around.0[a],
+    }))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use super::*;
+
+    fn world() -> (Resources<f64, 2>, Columns<f64, 2>) {
+        let plan = ResourcePlan {
+            items: vec![Vector([1.0, 0.0]), Vector([50.0, 50.0])],
+            within: 5.0,
+            gains: vec![Gain { column: "energy".into(), amount: 40.0, capacity: 100.0 }],
+            respawn: Respawn::After(0.0),
+            metabolism: Some(Metabolism {
+                energy: "energy".into(),
+                cost: 1.0,
+                health: "health".into(),
+                starvation: 1.0,
+            }),
+        };
+        let names = ["health", "energy"];
+        let resources = Resources::new(plan, |name| names.iter().position(|&n| n == name)).unwrap();
+        let mut columns = Columns::new(3, 2);
+        columns.state[0][..3].fill(10.0);
+        columns.state[1][..3].fill(70.0);
+        columns.set_position(1, Vector([2.0, 0.0]));
+        columns.set_position(2, Vector([0.0, 0.0]));
+        (resources, columns)
+    }
+
+    #[test]
+    fn the_nearest_living_agent_eats_and_ties_go_to_the_lower_id() {
+        let (mut r, mut c) = world();
+        r.update(&Space::walled([100.0, 100.0]), &mut c, |id| id as usize, 1, 0, 0.0, 1.0);
+        assert_eq!(r.consumer, [Some(0), None], "agents 0 and 1 and 2 are at distance 1: the lowest eats");
+        assert_eq!(c.state[1][..3], [99.0, 69.0, 69.0], "capped at capacity, then one unit paid");
+        assert_ne!(r.place[0], Vector([1.0, 0.0]), "the item is elsewhere");
+        assert!((0..2).all(|a| (0.0..100.0).contains(&r.place[0][a])));
+    }
+
+    #[test]
+    fn who_cannot_pay_starves_and_the_dead_neither_eat_nor_pay() {
+        let (mut r, mut c) = world();
+        c.state[1][..3].copy_from_slice(&[0.25, 0.0, 5.0]);
+        c.state[0][1] = 0.5;
+        c.state[0][0] = 0.0;
+        r.update(&Space::walled([100.0, 100.0]), &mut c, |id| id as usize, 1, 0, 0.0, 1.0);
+        assert_eq!(r.consumer[0], Some(1), "agent 0 is dead");
+        c.state[1][1] = 0.5;
+        r.update(&Space::walled([100.0, 100.0]), &mut c, |id| id as usize, 1, 1, 1.0, 1.0);
+        assert_eq!((c.state[0][1], c.state[1][1]), (0.0, 0.0), "half a unit unpaid takes the last half of health");
+        assert_eq!(c.state[1][0], 0.25, "the dead pay nothing");
+    }
+
+    #[test]
+    fn an_unknown_column_is_named() {
+        let (r, _) = world();
+        let text = Resources::new(r.plan, |_| None).unwrap_err();
+        assert!(text.contains("`energy`"), "{text}");
+    }
+}

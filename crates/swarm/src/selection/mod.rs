@@ -1,0 +1,363 @@
+//! Neighbour selection, the third stage: perception functions and their combinations.
+//!
+//! A perception function takes a candidate set and returns a subset of it; the agent itself is never in it.
+//! A model's named sets are perception functions over the detected members, and a scenario may put others in their place.
+
+use crate::motion::in_view;
+use crate::parameters::Scalar;
+use crate::sensing::cos_half;
+use space::{Columns, Real, Vector, voronoi};
+
+/// The eight perception functions and their combinations.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Perception<R, const D: usize> {
+    /// Everyone detected.
+    All,
+    /// Given ids, a list for each member of the group; needs identities.
+    FixedSet(Vec<Vec<u32>>),
+    /// Distances in [`low`, `high`).
+    DistanceBased {
+        /// Nearest distance selected.
+        low: R,
+        /// First distance no longer selected.
+        high: R,
+    },
+    /// The nearest one; ties go to the lower id.
+    Nearest,
+    /// Those whose Voronoi cell shares an edge with mine, among the candidates.
+    Voronoi,
+    /// The `k` nearest; all where there are fewer.
+    KNearest(usize),
+    /// Displacements between two corners, in the world's axes or turned with the heading.
+    BoundingBox {
+        /// Lower corner relative to me.
+        low: Vector<R, D>,
+        /// Upper corner relative to me.
+        high: Vector<R, D>,
+        /// Whether the first axis is my heading (2-D).
+        body_frame: bool,
+    },
+    /// Within a cone about the heading; all-round at rest, and always when coincident. Made by [`Perception::angle`].
+    Angle {
+        /// Full opening, rad.
+        opening: R,
+        /// The cosine of half of it.
+        cos_half: R,
+    },
+    /// In every one of these.
+    Intersection(Vec<Perception<R, D>>),
+    /// In any of these.
+    Union(Vec<Perception<R, D>>),
+    /// In the first but not in the second.
+    Difference(Box<Perception<R, D>>, Box<Perception<R, D>>),
+    /// Each takes the result of the one before as its candidates.
+    Sequence(Vec<Perception<R, D>>),
+}
+
+/// A named set of the selection stage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedSet<R, const D: usize> {
+    /// Name in files, tables and pictures.
+    pub name: &'static str,
+    /// Who is in it.
+    pub perception: Perception<R, D>,
+}
+
+impl<R, const D: usize> NamedSet<R, D> {
+    /// A named set.
+    pub fn new(name: &'static str, perception: Perception<R, D>) -> Self {
+        Self { name, perception }
+    }
+}
+
+/// Which others have to be looked at to evaluate a perception function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reach<R> {
+    /// Those closer than this.
+    Within(R),
+    /// The nearest so many, however far.
+    Nearest(usize),
+    /// Everyone.
+    All,
+}
+
+impl<R: Real> Reach<R> {
+    /// Enough for both.
+    pub fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Within(a), Self::Within(b)) => Self::Within(a.most(b)),
+            (Self::Nearest(a), Self::Nearest(b)) => Self::Nearest(a.max(b)),
+            _ => Self::All,
+        }
+    }
+    /// Enough for their intersection.
+    fn cut(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Within(a), Self::Within(b)) => Self::Within(a.least(b)),
+            (Self::Within(a), _) | (_, Self::Within(a)) => Self::Within(a),
+            (Self::Nearest(a), Self::Nearest(b)) => Self::Nearest(a.max(b)),
+            (a, Self::All) => a,
+            (Self::All, b) => b,
+        }
+    }
+}
+
+impl<R: Scalar, const D: usize> Perception<R, D> {
+    /// Distances in [`low`, `high`).
+    pub fn distance(low: R, high: R) -> Self {
+        Self::DistanceBased { low, high }
+    }
+    /// A cone about the heading, by its full opening in radians.
+    pub fn angle(opening: R) -> Self {
+        Self::Angle { opening, cos_half: cos_half(opening) }
+    }
+    /// In both of two functions.
+    pub fn both(self, other: Self) -> Self {
+        Self::Intersection(vec![self, other])
+    }
+    /// Which others have to be looked at.
+    pub fn reach(&self) -> Reach<R> {
+        match self {
+            Self::All | Self::FixedSet(_) | Self::Voronoi | Self::Angle { .. } => Reach::All,
+            Self::DistanceBased { high, .. } => {
+                if high.finite() {
+                    Reach::Within(*high)
+                } else {
+                    Reach::All
+                }
+            }
+            Self::Nearest => Reach::Nearest(1),
+            Self::KNearest(k) => Reach::Nearest(*k),
+            Self::BoundingBox { low, high, .. } => {
+                let far = Vector::<R, D>(core::array::from_fn(|a| low[a].abs().most(high[a].abs())));
+                Reach::Within(far.length() * R::of(1.000_001) + R::TINY)
+            }
+            Self::Intersection(parts) => {
+                // a rank is taken over all candidates, so it needs all that rank can see
+                let ranked = parts.iter().any(Self::ranks);
+                let all = parts.iter().map(Self::reach);
+                if ranked { all.reduce(Reach::and) } else { all.reduce(Reach::cut) }.unwrap_or(Reach::All)
+            }
+            Self::Union(parts) => parts.iter().map(Self::reach).reduce(Reach::and).unwrap_or(Reach::Within(R::TINY)),
+            Self::Difference(from, _) if !self.ranks() => from.reach(),
+            Self::Difference(from, without) => from.reach().and(without.reach()),
+            Self::Sequence(parts) => match parts.first() {
+                Some(first) => first.reach(),
+                None => Reach::All,
+            },
+        }
+    }
+    /// Whether membership depends on the other candidates.
+    pub fn ranks(&self) -> bool {
+        match self {
+            Self::Nearest | Self::KNearest(_) | Self::Voronoi => true,
+            Self::Intersection(parts) | Self::Union(parts) | Self::Sequence(parts) => parts.iter().any(Self::ranks),
+            Self::Difference(a, b) => a.ranks() || b.ranks(),
+            _ => false,
+        }
+    }
+    /// Whether it uses identities.
+    pub fn identifies(&self) -> bool {
+        match self {
+            Self::FixedSet(_) => true,
+            Self::Intersection(parts) | Self::Union(parts) | Self::Sequence(parts) => {
+                parts.iter().any(Self::identifies)
+            }
+            Self::Difference(a, b) => a.identifies() || b.identifies(),
+            _ => false,
+        }
+    }
+    /// Checks what can be known at load.
+    ///
+    /// # Errors
+    /// A sentence that says what is wrong and what would do.
+    pub fn check(&self) -> Result<(), String> {
+        match self {
+            Self::DistanceBased { low, high } if !(*low >= R::ZERO && high > low) => {
+                Err(format!("distance_based needs 0 <= low < high, found low {low} and high {high}"))
+            }
+            Self::Angle { opening, .. } if !(*opening >= R::ZERO && *opening <= R::TAU * R::of(1.000_001)) => {
+                Err(format!("angle is a full opening from 0 to 360 degrees, found {opening} rad"))
+            }
+            Self::BoundingBox { low, high, body_frame } => {
+                if (0..D).any(|a| low[a] > high[a] || !low[a].finite() || !high[a].finite()) {
+                    return Err("bounding_box needs low <= high on every axis".into());
+                }
+                if *body_frame && D != 2 {
+                    return Err(
+                        "bounding_box turns with the heading in two dimensions only; use frame = \"world\"".into()
+                    );
+                }
+                Ok(())
+            }
+            Self::Voronoi if D == 3 => {
+                Err("Voronoi neighbours are exact in one and two dimensions only; in three use \
+                 k_nearest or distance_based"
+                    .into())
+            }
+            Self::Intersection(parts) | Self::Union(parts) | Self::Sequence(parts) => {
+                if parts.is_empty() {
+                    return Err("a combination of perception functions needs at least one".into());
+                }
+                parts.iter().try_for_each(Self::check)
+            }
+            Self::Difference(a, b) => a.check().and_then(|()| b.check()),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What a perception function looks at.
+pub struct Candidates<'a, R, const D: usize> {
+    /// Displacements, `[D][candidates]`.
+    pub offset: [&'a [R]; D],
+    /// Squared distances.
+    pub squared: &'a [R],
+    /// Rows in `others`.
+    pub row: &'a [u32],
+    /// Their columns.
+    pub others: &'a Columns<R, D>,
+    /// My heading (zero at rest).
+    pub heading: Vector<R, D>,
+    /// My index in the group.
+    pub member: usize,
+}
+
+/// Buffers of the selection stage.
+#[derive(Debug, Default)]
+pub struct Scratch<R, const D: usize> {
+    spare: Vec<Vec<bool>>,
+    order: Vec<u32>,
+    offsets: Vec<Vector<R, D>>,
+    neighbours: Vec<u32>,
+    voronoi: voronoi::Scratch,
+}
+
+impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
+    fn offset(&self, k: usize) -> Vector<R, D> {
+        Vector(core::array::from_fn(|a| self.offset[a][k]))
+    }
+    fn id(&self, k: usize) -> u32 {
+        self.others.id[self.row[k] as usize]
+    }
+    /// Whether a rank-free function selects candidate `k`.
+    fn holds(&self, perception: &Perception<R, D>, k: usize) -> bool {
+        match perception {
+            Perception::All => true,
+            Perception::FixedSet(lists) => lists.get(self.member).is_some_and(|list| list.contains(&self.id(k))),
+            Perception::DistanceBased { low, high } => {
+                let squared = self.squared[k];
+                squared >= *low * *low && squared < *high * *high
+            }
+            Perception::BoundingBox { low, high, body_frame } => {
+                let mut offset = self.offset(k);
+                if *body_frame && !self.heading.is_tiny() {
+                    let mut turned = offset;
+                    turned.0[0] = offset.dot(self.heading);
+                    if D >= 2 {
+                        turned.0[1] = offset.dot(self.heading.left());
+                    }
+                    offset = turned;
+                }
+                (0..D).all(|a| low[a] <= offset[a] && offset[a] <= high[a])
+            }
+            Perception::Angle { cos_half, .. } => {
+                in_view::<R, R, D>(&self.heading.0, &self.offset(k).0, self.squared[k], *cos_half)
+            }
+            _ => false,
+        }
+    }
+    /// Leaves marked in `chosen` those of the marked candidates that the function selects. What [`Perception::check`]
+    /// refuses selects nobody.
+    pub fn select(&self, perception: &Perception<R, D>, chosen: &mut [bool], scratch: &mut Scratch<R, D>) {
+        match perception {
+            Perception::Nearest => self.keep_nearest(1, chosen, scratch),
+            Perception::KNearest(k) => self.keep_nearest(*k, chosen, scratch),
+            Perception::Voronoi => {
+                let Scratch { order, offsets, neighbours, voronoi: buffers, .. } = scratch;
+                order.clear();
+                offsets.clear();
+                for k in 0..chosen.len() {
+                    if chosen[k] {
+                        order.push(k as u32);
+                        offsets.push(self.offset(k));
+                    }
+                }
+                chosen.fill(false);
+                if voronoi::neighbours(offsets, buffers, neighbours).is_ok() {
+                    for &n in neighbours.iter() {
+                        chosen[order[n as usize] as usize] = true;
+                    }
+                }
+            }
+            Perception::Intersection(parts) => {
+                let mut result = scratch.spare.pop().unwrap_or_default();
+                result.clear();
+                result.extend_from_slice(chosen);
+                for part in parts {
+                    let mut one = scratch.spare.pop().unwrap_or_default();
+                    one.clear();
+                    one.extend_from_slice(chosen);
+                    self.select(part, &mut one, scratch);
+                    result.iter_mut().zip(&one).for_each(|(r, o)| *r &= o);
+                    scratch.spare.push(one);
+                }
+                chosen.copy_from_slice(&result);
+                scratch.spare.push(result);
+            }
+            Perception::Union(parts) => {
+                let mut result = scratch.spare.pop().unwrap_or_default();
+                result.clear();
+                result.resize(chosen.len(), false);
+                for part in parts {
+                    let mut one = scratch.spare.pop().unwrap_or_default();
+                    one.clear();
+                    one.extend_from_slice(chosen);
+                    self.select(part, &mut one, scratch);
+                    result.iter_mut().zip(&one).for_each(|(r, o)| *r |= o);
+                    scratch.spare.push(one);
+                }
+                chosen.copy_from_slice(&result);
+                scratch.spare.push(result);
+            }
+            Perception::Difference(from, without) => {
+                let mut other = scratch.spare.pop().unwrap_or_default();
+                other.clear();
+                other.extend_from_slice(chosen);
+                self.select(without, &mut other, scratch);
+                self.select(from, chosen, scratch);
+                chosen.iter_mut().zip(&other).for_each(|(c, o)| *c &= !o);
+                scratch.spare.push(other);
+            }
+            Perception::Sequence(parts) => parts.iter().for_each(|part| self.select(part, chosen, scratch)),
+            simple => {
+                for k in 0..chosen.len() {
+                    chosen[k] = chosen[k] && self.holds(simple, k);
+                }
+            }
+        }
+    }
+    fn keep_nearest(&self, count: usize, chosen: &mut [bool], scratch: &mut Scratch<R, D>) {
+        let order = &mut scratch.order;
+        order.clear();
+        order.extend((0..chosen.len() as u32).filter(|&k| chosen[k as usize]));
+        if order.len() <= count {
+            return;
+        }
+        chosen.fill(false);
+        if count == 0 {
+            return;
+        }
+        let nearer = |&a: &u32, &b: &u32| {
+            let (a, b) = (a as usize, b as usize);
+            self.squared[a]
+                .partial_cmp(&self.squared[b])
+                .unwrap_or(core::cmp::Ordering::Equal)
+                .then_with(|| self.id(a).cmp(&self.id(b)))
+        };
+        order.select_nth_unstable_by(count - 1, nearer);
+        for &k in &order[..count] {
+            chosen[k as usize] = true;
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Sensing, the first stage: who could I perceive?
+//!
+//! *Ideal* sensing reads the frozen state; a range, a field of view, occlusion, loss and errors limit it. A *scanner* casts
+//! rays and leaves it to detection to find members among the readings.
+
+pub mod robot;
+pub mod scanner;
+
+use space::Real;
+
+/// Errors of ideal sensing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SensingNoise<R> {
+    /// Standard deviation of the distance, as a share of it.
+    pub distance: R,
+    /// Standard deviation of the direction, rad (in 3-D about a random axis).
+    pub direction: R,
+    /// Standard deviation of the other's heading, rad.
+    pub heading: R,
+    /// Probability that a member is missed in a step.
+    pub miss: R,
+}
+
+impl<R: Real> SensingNoise<R> {
+    /// Whether there is any.
+    pub fn any(&self) -> bool {
+        [self.distance, self.direction, self.heading, self.miss].iter().any(|&v| v > R::ZERO)
+    }
+}
+
+/// Ideal sensing with its limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ideal<R> {
+    /// Members at this distance or farther are not sensed.
+    pub range: Option<R>,
+    /// Full opening of the cone about the heading that is sensed, rad.
+    pub field_of_view: Option<R>,
+    /// A member is hidden where the line between centres passes a nearer member's body (of its radius) or an opaque obstacle.
+    pub occlusion: bool,
+    /// Errors.
+    pub noise: SensingNoise<R>,
+}
+
+impl<R: Real> Default for Ideal<R> {
+    fn default() -> Self {
+        let none = SensingNoise { distance: R::ZERO, direction: R::ZERO, heading: R::ZERO, miss: R::ZERO };
+        Self { range: None, field_of_view: None, occlusion: false, noise: none }
+    }
+}
+
+impl<R: Real> Ideal<R> {
+    /// Whether everybody is sensed exactly, so that laws may read the state itself.
+    pub fn is_perfect(&self) -> bool {
+        self.range.is_none() && self.field_of_view.is_none() && !self.occlusion && !self.noise.any()
+    }
+    /// What can be known at load.
+    ///
+    /// # Errors
+    /// A sentence that says what is wrong.
+    pub fn check(&self) -> Result<(), String> {
+        if let Some(range) = self.range
+            && !(range > R::ZERO)
+        {
+            return Err(format!("sensing range must be more than 0, found {range}"));
+        }
+        if let Some(opening) = self.field_of_view
+            && !(opening >= R::ZERO && opening <= R::TAU * R::of(1.000_001))
+        {
+            return Err(format!("field of view must be from 0 to 360 degrees, found {opening} rad"));
+        }
+        let n = &self.noise;
+        for (name, value) in [("distance", n.distance), ("direction", n.direction), ("heading", n.heading)] {
+            if !(value >= R::ZERO && value.finite()) {
+                return Err(format!("sensing noise of the {name} must be 0 or more, found {value}"));
+            }
+        }
+        if !(n.miss >= R::ZERO && n.miss <= R::ONE) {
+            return Err(format!("the probability of missing a member must be from 0 to 1, found {}", n.miss));
+        }
+        Ok(())
+    }
+}
+
+/// The cosine limit of a field of view with this full opening; an opening of a whole turn lets everyone pass.
+pub fn cos_half<R: Real>(opening: R) -> R {
+    if opening >= R::TAU * R::of(0.999_999_9) { -R::of(2.0) } else { (opening * R::HALF).cos() }
+}
