@@ -278,7 +278,8 @@ impl<R: Real, const D: usize> Grid<R, D> {
     /// Puts each cell's rows in the order of their ids and copies the columns.
     fn permute(&mut self, from: &Columns<R, D>, to: &mut Columns<R, D>, workers: &Workers) {
         let (agents, cells) = (from.len(), self.layout.total());
-        let tasks = if workers.threads() == 1 { 1 } else { workers.threads() * 4 };
+        // a few thousand rows at a time stay in the cache for all columns
+        let tasks = (agents / 4096).max(workers.threads() * 4).min(cells);
         let first = &self.first;
         let order = Shared::new(&mut self.order);
         let id = Shared::new(&mut to.id);
@@ -357,15 +358,18 @@ impl<R: Real, const D: usize> Grid<R, D> {
         }
         count
     }
-    /// The rows around a block of rows that stand in one line of cells, in canonical order.
-    #[inline(always)]
+    /// The rows around a block of rows that stand in one line of cells, in canonical order. `to` is cleared first.
+    ///
+    /// A list rather than a visitor: what is computed per segment runs at an instruction level that closures do not
+    /// inherit.
     pub fn around(
         &self,
         columns: &Columns<R, D>,
         line: usize,
         rows: core::ops::Range<usize>,
-        mut visit: impl FnMut(Segment<R, D>),
+        to: &mut Vec<Segment<R, D>>,
     ) {
+        to.clear();
         let low = self.layout.coordinate(0, columns.position[0][rows.start]) as isize;
         let high = self.layout.coordinate(0, columns.position[0][rows.end - 1]) as isize;
         let mut centre = [0usize; D];
@@ -376,7 +380,7 @@ impl<R: Real, const D: usize> Grid<R, D> {
         }
         let span = self.layout.span[0] as isize;
         self.layout.each_line(centre, self.layout.span, |line, shift| {
-            self.stretch(line, low - span, high + span, shift, &mut visit)
+            self.stretch(line, low - span, high + span, shift, &mut |segment| to.push(segment));
         });
     }
     /// The part of a line from cell `low` to cell `high` (unwrapped).
@@ -619,14 +623,16 @@ mod tests {
                     let count = grid.together(&to, row, width.min(rows.end - row));
                     for me in row..row + count {
                         let mut met = Vec::new();
-                        grid.around(&to, line, row..row + count, |s| {
+                        let mut segments = Vec::new();
+                        grid.around(&to, line, row..row + count, &mut segments);
+                        for s in segments {
                             for j in s.first as usize..s.end as usize {
                                 let offset = (to.position(j) + s.shift) - to.position(me);
                                 if offset.length_squared() < reach * reach {
                                     met.push(to.id[j]);
                                 }
                             }
-                        });
+                        }
                         let mut by_query = Vec::new();
                         grid.within(&to, to.position(me), reach, |j, _, _| by_query.push(to.id[j as usize]));
                         assert_eq!(met, by_query, "the same neighbours in the same order");

@@ -49,6 +49,35 @@ pub fn uniform(seed: u64, purpose: Purpose, a: u64, b: u32) -> f64 {
     (bits >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
 }
 
+/// [`uniform`] for several counters `b` at once: the same numbers, computed side by side.
+#[inline(always)]
+pub fn uniforms<const W: usize>(seed: u64, purpose: Purpose, a: u64, b: &[u32; W]) -> [f64; W] {
+    let mut c0 = [a as u32; W];
+    let mut c1 = [(a >> 32) as u32; W];
+    let mut c2 = *b;
+    let mut c3 = [purpose as u32; W];
+    let mut key = [seed as u32, (seed >> 32) as u32];
+    for round in 0..10 {
+        if round > 0 {
+            key = [key[0].wrapping_add(0x9E37_79B9), key[1].wrapping_add(0xBB67_AE85)];
+        }
+        for w in 0..W {
+            let x = u64::from(c0[w]) * 0xD251_1F53;
+            let y = u64::from(c2[w]) * 0xCD9E_8D57;
+            c0[w] = (y >> 32) as u32 ^ c1[w] ^ key[0];
+            c1[w] = y as u32;
+            c2[w] = (x >> 32) as u32 ^ c3[w] ^ key[1];
+            c3[w] = x as u32;
+        }
+    }
+    let mut out = [0.0; W];
+    for w in 0..W {
+        let bits = u64::from(c0[w]) | (u64::from(c1[w]) << 32);
+        out[w] = (bits >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0);
+    }
+    out
+}
+
 /// The draws of one agent in one step for one purpose: `b = 8 i + slot`.
 ///
 /// A place in the stream is a slot (0 to 7); when the draw concerns another member `j`, `a` is
@@ -63,15 +92,25 @@ pub struct Stream {
     pub step: u64,
     /// Index of the agent in the whole world.
     pub agent: u32,
+    /// The uniform draw of slot 0, where it was made beforehand together with others; negative where not.
+    pub first: f64,
 }
 
 impl Stream {
     /// Slots a decision may use.
     pub const SLOTS: u32 = 8;
 
+    /// The draws of an agent in a step.
+    #[inline(always)]
+    pub fn new(seed: u64, purpose: Purpose, step: u64, agent: u32) -> Self {
+        Self { seed, purpose, step, agent, first: -1.0 }
+    }
     /// Uniform in [0, 1).
     #[inline(always)]
     pub fn uniform(&self, slot: u32) -> f64 {
+        if slot == 0 && self.first >= 0.0 {
+            return self.first;
+        }
         uniform(self.seed, self.purpose, self.step, self.agent.wrapping_mul(8).wrapping_add(slot))
     }
     /// Uniform in [0, 1), about the other member `j`.
@@ -147,6 +186,15 @@ mod tests {
     }
 
     #[test]
+    fn several_at_once_are_the_same_numbers() {
+        let b = [0, 8, 16, 7, u32::MAX, 1, 2, 3];
+        let all = uniforms(0x1234_5678_9abc_def0, Purpose::Behaviour, 1 << 33, &b);
+        for (k, &b) in b.iter().enumerate() {
+            assert_eq!(all[k], uniform(0x1234_5678_9abc_def0, Purpose::Behaviour, 1 << 33, b));
+        }
+    }
+
+    #[test]
     fn the_documented_draw() {
         assert_eq!(uniform(7, Purpose::Behaviour, 11, 0), 0.992_562_634_704_139_1);
     }
@@ -156,7 +204,7 @@ mod tests {
         let (mut sum, mut squares, mut mean) = (0.0, 0.0, Vector::<f64, 3>::ZERO);
         let n = 20_000;
         for step in 0..n {
-            let s = Stream { seed: 5, purpose: Purpose::Sensing, step, agent: 3 };
+            let s = Stream::new(5, Purpose::Sensing, step, 3);
             let x = s.normal(0);
             sum += x;
             squares += x * x;

@@ -131,6 +131,12 @@ impl<R: Real, const D: usize> Vector<R, D> {
         let length = self.length();
         if length > R::TINY { self / length } else { Self::ZERO }
     }
+    /// `self / |self|`, or `other` when `|self|` is at most 1e-12.
+    #[inline(always)]
+    pub fn unit_or(self, other: Self) -> Self {
+        let length = self.length();
+        if length > R::TINY { self / length } else { other }
+    }
     /// Whether the length is at most 1e-12 (the zero vector for every rule of direction).
     #[inline(always)]
     pub fn is_tiny(self) -> bool {

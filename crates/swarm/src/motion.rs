@@ -65,7 +65,7 @@ impl<'a> Draws<'a> {
     /// The draws of agent `id` in `step`.
     #[inline(always)]
     pub fn new(seed: u64, step: u64, id: u32, injected: Option<&'a Injected>) -> Self {
-        Self { stream: DrawStream { seed, purpose: Purpose::Behaviour, step, agent: id }, injected }
+        Self { stream: DrawStream::new(seed, Purpose::Behaviour, step, id), injected }
     }
     /// A scalar quantity: supplied by name, or drawn by `law`; `neutral` where others are supplied but not this one.
     #[inline(always)]
@@ -152,6 +152,8 @@ pub struct Me<'a, R, const D: usize> {
     pub position: Vector<R, D>,
     /// Velocity before the step.
     pub velocity: Vector<R, D>,
+    /// Unit vector of the velocity; zero at rest.
+    pub heading: Vector<R, D>,
     /// Own values of the model's declared columns, in their order; what is written here is the next state.
     pub own: &'a mut [R],
     /// The rest of the world.
@@ -164,7 +166,7 @@ impl<R: Real, const D: usize> Me<'_, R, D> {
     /// Unit vector of the velocity; zero at rest.
     #[inline(always)]
     pub fn heading(&self) -> Vector<R, D> {
-        self.velocity.unit()
+        self.heading
     }
     /// Index in the own group.
     #[inline(always)]
@@ -423,6 +425,10 @@ pub trait Stream<R: Scalar, const D: usize>: Law<R> {
     );
     /// The wanted motion from the sums over all neighbours.
     fn finish(&self, me: &mut Me<'_, R, D>, sums: &Self::Sums<R>, draws: &Draws<'_>) -> Motion<R, D>;
+    /// Whether every decision uses the uniform draw of slot 0; it is then made for a whole block of agents at once.
+    fn draws_first(&self) -> bool {
+        false
+    }
     /// Fills in what an initial state leaves out.
     fn complete(&self, _start: &mut Start<'_, R, D>) {}
 }
@@ -439,7 +445,7 @@ impl<R: Scalar, const D: usize, T: Stream<R, D>> Model<R, D> for Summed<T> {
     }
     #[inline]
     fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D> {
-        let lanes = MeLanes { velocity: me.velocity.0, heading: me.velocity.unit().0 };
+        let lanes = MeLanes { velocity: me.velocity.0, heading: me.heading.0 };
         let mut sums = T::Sums::<R>::zero();
         for k in 0..seen.len() {
             let bits = seen.sets[k];

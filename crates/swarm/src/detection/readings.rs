@@ -608,7 +608,7 @@ mod tests {
     const RADIUS: f64 = 0.17;
 
     fn draws(step: u64) -> Stream {
-        Stream { seed: 12, purpose: Purpose::Sensing, step, agent: 1 }
+        Stream::new(12, Purpose::Sensing, step, 1)
     }
     fn body(x: f64, y: f64, member: u32) -> Body<f64> {
         Body { offset: Vector([x, y]), radius: RADIUS, albedo: 1.0, member }

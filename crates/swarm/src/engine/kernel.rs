@@ -14,7 +14,8 @@ use core::ops::Range;
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
 use space::obstacles::Obstacles;
 use space::parallel::Shared;
-use space::random::{Purpose, Stream as DrawStream};
+use space::random::{Purpose, Stream as DrawStream, uniforms};
+use space::grid::Segment;
 use space::shape::Shape;
 use space::{Columns, Edge, Grid, LiveGrid, PADDING, Real, Space, Vector};
 
@@ -106,6 +107,8 @@ pub(crate) struct Stages<R, const D: usize> {
     pub(crate) mobility: Mobility<R>,
     pub(crate) noise: MotionNoise<R>,
     pub(crate) dt: R,
+    /// Whether motions are performed exactly as wanted.
+    pub(crate) plain: bool,
 }
 
 /// Buffers of one worker.
@@ -124,8 +127,7 @@ pub(crate) struct Scratch<R, const D: usize> {
     /// Columns of its body.
     pub(crate) body: Vec<R>,
     pub(crate) robot: RobotScratch<R>,
-    /// Directed pairs selected, counted on request.
-    pub(crate) pairs: u64,
+    segments: Vec<Segment<R, D>>,
     pub(crate) notes: Option<Vec<(&'static str, Vector<R, D>)>>,
 }
 
@@ -144,7 +146,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             own: Vec::new(),
             body: Vec::new(),
             robot: RobotScratch::default(),
-            pairs: 0,
+            segments: Vec::new(),
             notes: None,
         }
     }
@@ -214,6 +216,17 @@ impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
         }
     }
     /// # Safety
+    /// No other worker writes these rows.
+    #[inline(always)]
+    unsafe fn write_block(&self, axis: usize, row: usize, position: &[R], velocity: &[R]) {
+        let rows = row..row + position.len();
+        // SAFETY: the caller's promise; rows are in bounds.
+        unsafe {
+            self.position[axis].part(rows.clone()).copy_from_slice(position);
+            self.velocity[axis].part(rows).copy_from_slice(velocity);
+        }
+    }
+    /// # Safety
     /// No other worker writes this row.
     #[inline(always)]
     unsafe fn write_state(&self, row: usize, columns: &[usize], values: &[R]) {
@@ -269,7 +282,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         let n = &self.noise;
         if n.execution_direction > R::ZERO || n.execution_speed > R::ZERO {
             let draws =
-                DrawStream { seed: view.seed, purpose: Purpose::Execution, step: view.step, agent: view.now.id[row] };
+                DrawStream::new(view.seed, Purpose::Execution, view.step, view.now.id[row]);
             motion = turned(motion, n.execution_direction * R::of(draws.normal(0)), &draws, 4);
             let faster = (R::ONE + n.execution_speed * R::of(draws.normal(2))).most(R::ZERO);
             motion = Motion { velocity: motion.velocity * faster, displacement: motion.displacement * faster };
@@ -282,7 +295,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     fn wanted(&self, view: &View<'_, R, D>, row: usize, motion: Motion<R, D>) -> Motion<R, D> {
         if self.noise.computation > R::ZERO {
             let draws =
-                DrawStream { seed: view.seed, purpose: Purpose::Computation, step: view.step, agent: view.now.id[row] };
+                DrawStream::new(view.seed, Purpose::Computation, view.step, view.now.id[row]);
             return turned(motion, self.noise.computation * R::of(draws.normal(0)), &draws, 2);
         }
         motion
@@ -290,6 +303,9 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     /// Loads an agent's columns into the scratch.
     #[inline(always)]
     pub(crate) fn load(&self, now: &Columns<R, D>, row: usize, scratch: &mut Scratch<R, D>) {
+        if self.columns.is_empty() && self.body_columns.is_empty() {
+            return;
+        }
         scratch.own.clear();
         scratch.own.extend(self.columns.iter().map(|&c| now.state[c][row]));
         scratch.body.clear();
@@ -498,7 +514,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     /// The limits and errors of ideal sensing. Returns whether others' velocities were changed too.
     fn limit(&self, ideal: &Ideal<R>, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> bool {
         let id = view.now.id[row];
-        let draws = DrawStream { seed: view.seed, purpose: Purpose::Sensing, step: view.step, agent: id };
+        let draws = DrawStream::new(view.seed, Purpose::Sensing, view.step, id);
         if let Some(opening) = ideal.field_of_view {
             let heading = view.now.velocity(row).unit();
             let limit = crate::sensing::cos_half(opening);
@@ -606,7 +622,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             (Mobility::DifferentialDrive(_), Some(&column)) => view.now.state[column][row],
             _ => view.now.velocity(row).angle(),
         };
-        let draws = DrawStream { seed: view.seed, purpose: Purpose::Sensing, step: view.step, agent: view.now.id[row] };
+        let draws = DrawStream::new(view.seed, Purpose::Sensing, view.step, view.now.id[row]);
         robot.detect(view.obstacles, view.space, place, facing, &draws, view.time, &mut scratch.robot, memory);
         scratch.clear();
         let found = scratch.robot.found.len();
@@ -714,6 +730,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             id: view.now.id[row],
             position,
             velocity: view.now.velocity(row),
+            heading: view.now.velocity(row).unit(),
             own: &mut scratch.own,
             around: stages.around(view, row, position, &obstacles),
             notes: scratch.notes.as_mut(),
@@ -805,6 +822,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
     }
 }
 
+const SKIP: bool = false;
 /// A law that sums neighbour by neighbour: several agents at a time against neighbours in canonical order.
 pub(crate) struct Streamed<M, R, const D: usize> {
     pub(crate) listed: Listed<Summed<M>, R, D>,
@@ -820,43 +838,61 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         stages.own_sets && matches!(&stages.sensing, Sensing::Ideal(ideal) if ideal.is_perfect())
     }
 
+    /// Adds the neighbours of one run of rows to the sums of a block. With `IMAGES`, displacements are made minimal pair by
+    /// pair; otherwise the rows are displaced by `shift`.
     #[inline(always)]
-    fn other<'a>(&'a self, view: &View<'a, R, D>, row: usize) -> Other<'a, R, D> {
-        Other {
-            velocity: view.others.velocity(row),
-            heading: if M::HEADINGS { Vector(core::array::from_fn(|a| view.heading[a][row])) } else { Vector::ZERO },
-            row,
-            others: view.others,
-            columns: &self.listed.stages.columns,
-        }
-    }
-
-    /// Adds the neighbours of one run of rows to the sums of a block.
-    #[inline(always)]
-    fn meet<L: Lanes<R>>(
+    fn meet<L: Lanes<R>, const IMAGES: bool>(
         &self,
         view: &View<'_, R, D>,
         block: &Block<L, D>,
         rows: Range<usize>,
-        offset_to: impl Fn(usize) -> [L; D],
+        shift: Vector<R, D>,
         sums: &mut M::Sums<L>,
     ) {
         let limit = L::splat(self.law().reach() * self.law().reach());
-        for j in rows {
+        let (first, count) = (rows.start, rows.len());
+        // cut to one length, so that no place inside the loop has to be checked
+        let mut position = [&[][..]; D];
+        let mut velocity = [&[][..]; D];
+        let mut heading = [&[][..]; D];
+        for a in 0..D {
+            position[a] = &view.others.position[a][rows.clone()][..count];
+            velocity[a] = &view.others.velocity[a][rows.clone()][..count];
+            heading[a] = if M::HEADINGS { &view.heading[a][rows.clone()][..count] } else { velocity[a] };
+        }
+        for k in 0..count {
+            let j = first + k;
             if view.dead(view.others, j) {
                 continue;
             }
-            let offset = offset_to(j);
+            let mut other = Other {
+                velocity: Vector::ZERO,
+                heading: Vector::ZERO,
+                row: j,
+                others: view.others,
+                columns: &self.listed.stages.columns,
+            };
+            let mut offset = block.place;
+            for a in 0..D {
+                offset[a] = L::splat(position[a][k] + shift.0[a]) - block.place[a];
+                if IMAGES {
+                    offset[a] = minimal_lanes(view.space, a, offset[a]);
+                }
+                other.velocity.0[a] = velocity[a][k];
+                other.heading.0[a] = heading[a][k];
+            }
             let squared = crate::motion::dot(&offset, &offset);
             let mut near = squared.less(limit);
             if j.wrapping_sub(block.first) < L::WIDTH {
                 near = near.and(L::Mask::from_bits(!(1u32 << (j - block.first))));
             }
-            if !near.any() {
+            if SKIP && !near.any() {
                 continue;
             }
-            let other = self.other(view, j);
-            let sets = self.law().classify::<L>(&block.me, &offset, squared, &other).map(|set| set.and(near));
+            let mut sets = self.law().classify::<L>(&block.me, &offset, squared, &other);
+            for set in &mut sets {
+                *set = set.and(near);
+            }
             self.law().gather::<L>(sums, &block.me, &offset, squared, &other, &sets);
         }
     }
@@ -887,31 +923,92 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             let velocity: [L; D] = core::array::from_fn(|a| L::load(&view.now.velocity[a][row..]));
             let heading =
                 if M::HEADINGS { core::array::from_fn(|a| L::load(&view.heading[a][row..])) } else { velocity };
-            let block = Block { first: row, me: MeLanes { velocity, heading } };
+            let block = Block { first: row, place, me: MeLanes { velocity, heading } };
             let mut sums = M::Sums::<L>::zero();
-            match view.index {
-                Index::Sorted(grid) => grid.around(view.now, line, row..row + count, |segment| {
-                    let shift = segment.shift;
-                    let offset_to = |j: usize| {
-                        core::array::from_fn(|a| L::splat(view.others.position[a][j] + shift.0[a]) - place[a])
-                    };
-                    self.meet(view, &block, segment.first as usize..segment.end as usize, offset_to, &mut sums);
-                }),
-                _ => {
-                    let offset_to = |j: usize| {
-                        core::array::from_fn(|a| {
-                            minimal_lanes(view.space, a, L::splat(view.others.position[a][j]) - place[a])
-                        })
-                    };
-                    self.meet(view, &block, 0..view.others.len(), offset_to, &mut sums);
+            if let Index::Sorted(grid) = view.index {
+                let mut segments = core::mem::take(&mut scratch.segments);
+                grid.around(view.now, line, row..row + count, &mut segments);
+                for s in &segments {
+                    self.meet::<L, false>(view, &block, s.first as usize..s.end as usize, s.shift, &mut sums);
                 }
+                scratch.segments = segments;
+            } else {
+                self.meet::<L, true>(view, &block, 0..view.others.len(), Vector::ZERO, &mut sums);
             }
             let mut each = [<M::Sums<L> as LaneSums<R, L>>::zero_one(); WIDEST];
             sums.split(&mut each[..L::WIDTH]);
-            for k in 0..count {
-                self.finish(view, row + k, &each[k], out, scratch);
+            let mut first = [-1.0; WIDEST];
+            if self.law().draws_first() && view.injected.is_none() {
+                let mut counter = [0; WIDEST];
+                for k in 0..count {
+                    counter[k] = view.now.id[row + k].wrapping_mul(DrawStream::SLOTS);
+                }
+                first = uniforms(view.seed, Purpose::Behaviour, view.step, &counter);
+            }
+            let stages = &self.listed.stages;
+            if stages.plain && view.mortality.is_none() && view.bodies.len() == 1 {
+                self.finish_block::<L>(view, row, count, &each, &first, out, scratch);
+            } else {
+                for k in 0..count {
+                    self.finish(view, row + k, &each[k], first[k], out, scratch);
+                }
             }
             row += count;
+        }
+    }
+
+    /// Moves a block whose motions are performed exactly: the same numbers as [`Stages::perform`], side by side.
+    #[inline(always)]
+    fn finish_block<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        count: usize,
+        sums: &[<M::Sums<L> as LaneSums<R, L>>::One; WIDEST],
+        first: &[f64; WIDEST],
+        out: &Writer<'_, R, D>,
+        scratch: &mut Scratch<R, D>,
+    ) {
+        let stages = &self.listed.stages;
+        let mut velocity = [[R::ZERO; WIDEST]; D];
+        let mut displacement = [[R::ZERO; WIDEST]; D];
+        for k in 0..count {
+            let wanted = self.conclude(view, row + k, &sums[k], first[k], scratch);
+            for a in 0..D {
+                velocity[a][k] = wanted.velocity.0[a];
+                displacement[a][k] = wanted.displacement.0[a];
+            }
+            // SAFETY: rows of one sweep are written by it alone.
+            unsafe { out.write_state(row + k, &stages.columns, &scratch.own) };
+        }
+        let zero = L::splat(R::ZERO);
+        let mut fine = L::Mask::all_of(true);
+        let mut place = [zero; D];
+        for a in 0..D {
+            place[a] = L::load(&view.now.position[a][row..]) + L::load(&displacement[a]);
+            fine = match view.space.edges[a] {
+                Edge::Periodic(length) => fine.and(zero.less_equal(place[a])).and(place[a].less(L::splat(length))),
+                // the difference of a number with itself is 0 unless it is infinite or not a number
+                _ => fine.and((place[a] - place[a]).less_equal(zero)),
+            };
+            let moving = L::load(&velocity[a]);
+            fine = fine.and((moving - moving).less_equal(zero));
+        }
+        if fine.bits() & mask_of(count) == mask_of(count) {
+            for a in 0..D {
+                let mut to = [R::ZERO; WIDEST];
+                place[a].store(&mut to);
+                // SAFETY: as above.
+                unsafe { out.write_block(a, row, &to[..count], &velocity[a][..count]) };
+            }
+            return;
+        }
+        for k in 0..count {
+            let pick = |from: &[[R; WIDEST]; D]| Vector(core::array::from_fn(|a| from[a][k]));
+            let wanted = Motion { velocity: pick(&velocity), displacement: pick(&displacement) };
+            let (place, velocity) = stages.perform(view, row + k, wanted, stages.dt, &mut []);
+            // SAFETY: as above.
+            unsafe { out.write(row + k, place, velocity) };
         }
     }
 
@@ -921,6 +1018,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         view: &View<'_, R, D>,
         row: usize,
         sums: &M::Sums<R>,
+        first: f64,
         out: &Writer<'_, R, D>,
         scratch: &mut Scratch<R, D>,
     ) {
@@ -933,7 +1031,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             unsafe { out.write(row, view.now.position(row), view.now.velocity(row)) };
             return;
         }
-        let wanted = self.conclude(view, row, sums, scratch);
+        let wanted = self.conclude(view, row, sums, first, scratch);
         let mut body = core::mem::take(&mut scratch.body);
         let (place, velocity) = stages.perform(view, row, wanted, stages.dt, &mut body);
         // SAFETY: as above.
@@ -951,17 +1049,26 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         view: &View<'_, R, D>,
         row: usize,
         sums: &M::Sums<R>,
+        first: f64,
         scratch: &mut Scratch<R, D>,
     ) -> Motion<R, D> {
         let stages = &self.listed.stages;
         let position = view.now.position(row);
-        stages.perceive_obstacles(view, position, &mut scratch.obstacles);
+        if stages.obstacle_reach.is_some() {
+            stages.perceive_obstacles(view, position, &mut scratch.obstacles);
+        }
         stages.load(view.now, row, scratch);
-        let draws = Draws::new(view.seed, view.step, view.now.id[row], view.injected);
+        let mut draws = Draws::new(view.seed, view.step, view.now.id[row], view.injected);
+        draws.stream.first = first;
         let mut me = Me {
             id: view.now.id[row],
             position,
             velocity: view.now.velocity(row),
+            heading: if M::HEADINGS && !view.heading[0].is_empty() {
+                Vector(core::array::from_fn(|a| view.heading[a][row]))
+            } else {
+                view.now.velocity(row).unit()
+            },
             own: &mut scratch.own,
             around: stages.around(view, row, position, &scratch.obstacles),
             notes: scratch.notes.as_mut(),
@@ -974,6 +1081,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
 /// A block of consecutive agents, one per lane.
 struct Block<L, const D: usize> {
     first: usize,
+    place: [L; D],
     me: MeLanes<L, D>,
 }
 
@@ -1041,7 +1149,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Kernel<R, D> for Streamed<M, R,
             let sets = self.law().classify::<R>(&me, &offset.0, squared, &other);
             self.law().gather::<R>(&mut sums, &me, &offset.0, squared, &other, &sets);
         });
-        if found { self.conclude(view, row, &sums, scratch) } else { self.listed.one(view, row, scratch, memory) }
+        if found { self.conclude(view, row, &sums, -1.0, scratch) } else { self.listed.one(view, row, scratch, memory) }
     }
     fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
         self.listed.neighbours(view, row, scratch)

@@ -6,7 +6,7 @@ use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, Worl
 use crate::models::{self, Catalogue, Models};
 use crate::motion::{Injected, Motion, Start as Completion};
 use crate::parameters::{Scalar, nearest};
-use crate::physics::{Contact, Met};
+use crate::physics::{Contact, Met, Mobility};
 use crate::resources::Resources;
 use crate::selection::{NamedSet, Perception, Reach};
 use crate::sensing::robot::Memory;
@@ -187,6 +187,9 @@ where
                 mobility: group.mobility,
                 noise: group.noise,
                 dt,
+                plain: group.mobility == Mobility::Ideal
+                    && group.noise.execution_direction == R::ZERO
+                    && group.noise.execution_speed == R::ZERO,
             };
             let kernel = (model.build)(stages);
             headings |= kernel.streams() == Some(true);
@@ -292,7 +295,7 @@ where
             for member in 0..group.count {
                 let row = first + member;
                 let id = row as u64;
-                let draws = DrawStream { seed: plan.seed, purpose: Purpose::Init, step: 1 << 41, agent: row as u32 };
+                let draws = DrawStream::new(plan.seed, Purpose::Init, 1 << 41, row as u32);
                 let (position, velocity) = match &group.placement {
                     Placement::Given(start) => {
                         for (name, values) in &start.columns {

@@ -141,6 +141,8 @@ models! {
     streams vicsek_1995::Vicsek1995 in [2, 3];
     streams couzin_2002::Couzin2002 in [2, 3];
     lists viscido_snn::ViscidoSnn in [2, 3];
+    streams boids_unit_heading::BoidsUnitHeading in [2, 3];
+    streams abm_flocking::AbmFlocking in [2];
 }
 
 /// The model of an id.

@@ -96,6 +96,9 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Vicsek1995<R> {
     fn reach(&self) -> R {
         self.radius
     }
+    fn draws_first(&self) -> bool {
+        self.noise_amplitude > R::ZERO
+    }
     #[inline(always)]
     fn classify<L: Lanes<R>>(&self, _: &MeLanes<L, D>, _: &[L; D], _: L, _: &Other<'_, R, D>) -> SetMasks<L::Mask> {
         let [yes, no] = [true, false].map(L::Mask::all_of);
@@ -117,10 +120,7 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Vicsek1995<R> {
     fn finish(&self, me: &mut Me<'_, R, D>, headings: &[R; D], draws: &Draws<'_>) -> Motion<R, D> {
         let own = me.heading();
         me.note("neighbours", Vector(*headings));
-        let mut wanted = (own + Vector(*headings)).unit();
-        if wanted.is_tiny() {
-            wanted = own;
-        }
+        let mut wanted = (own + Vector(*headings)).unit_or(own);
         let eta = self.noise_amplitude.to_f64();
         if eta > 0.0 || draws.injected.is_some() {
             let noise = draws.number("noise", 0.0, |s| eta * (s.uniform(0) - 0.5));

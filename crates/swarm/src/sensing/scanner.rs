@@ -352,7 +352,7 @@ mod tests {
     type V = Vector<f64, 2>;
 
     fn draws() -> Stream {
-        Stream { seed: 9, purpose: Purpose::Sensing, step: 0, agent: 2 }
+        Stream::new(9, Purpose::Sensing, 0, 2)
     }
     fn body(x: f64, y: f64, member: u32) -> Body<f64> {
         Body { offset: Vector([x, y]), radius: 0.17, albedo: 1.0, member }

@@ -1,0 +1,67 @@
+//! What can go wrong, and the exit code it means.
+
+use std::io;
+
+/// Why a command could not do what was asked.
+#[derive(Debug)]
+pub enum Fault {
+    /// The user's input is wrong: what, where, and what was expected.
+    Input(String),
+    /// Ours.
+    Ours(String),
+    /// Nobody reads standard output any more.
+    Closed,
+}
+
+impl Fault {
+    /// Exit code: 2 for input, 70 for our own faults, 0 when the reader went away.
+    pub fn code(&self) -> u8 {
+        match self {
+            Self::Input(_) => 2,
+            Self::Ours(_) => 70,
+            Self::Closed => 0,
+        }
+    }
+    /// The same fault with the place it concerns before it.
+    #[must_use]
+    pub fn at(self, place: &str) -> Self {
+        match self {
+            Self::Input(text) => Self::Input(format!("{place}: {text}")),
+            other => other,
+        }
+    }
+}
+
+impl core::fmt::Display for Fault {
+    fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Input(text) | Self::Ours(text) => write!(out, "{text}"),
+            Self::Closed => Ok(()),
+        }
+    }
+}
+impl core::error::Error for Fault {}
+
+impl From<io::Error> for Fault {
+    /// Errors of writing to standard output.
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::Closed
+        } else {
+            Self::Ours(format!("cannot write to standard output: {error}"))
+        }
+    }
+}
+
+/// A wrong input.
+pub fn wrong<T>(text: impl Into<String>) -> Result<T, Fault> {
+    Err(Fault::Input(text.into()))
+}
+
+/// A hint at the nearest name there is.
+pub fn hint(name: &str, among: &[&str]) -> String {
+    match swarm::parameters::nearest(name, among.iter().copied()) {
+        Some(nearest) => format!("; did you mean `{nearest}`?"),
+        None => String::new(),
+    }
+}
