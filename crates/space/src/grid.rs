@@ -5,7 +5,7 @@
 //! coordinates, inside a cell by id. That order follows from the state alone, so a sum taken in it has the same
 //! bits for any number of threads, any vector width, and after any restart.
 
-use crate::frame::Columns;
+use crate::frame::{Columns, PADDING};
 use crate::parallel::{Shared, Workers};
 use crate::{Edge, Real, Space, Vector};
 
@@ -36,7 +36,16 @@ struct Layout<R, const D: usize> {
 
 impl<R: Real, const D: usize> Layout<R, D> {
     /// `None` where cells would not help: a period shorter than the cells that have to be searched.
-    fn new(space: &Space<R, D>, reach: R, agents: usize, low: Vector<R, D>, high: Vector<R, D>) -> Option<Self> {
+    ///
+    /// The first axis is cut finer, to about one agent a cell, but at most `finest` times.
+    fn new(
+        space: &Space<R, D>,
+        reach: R,
+        agents: usize,
+        low: Vector<R, D>,
+        high: Vector<R, D>,
+        finest: f64,
+    ) -> Option<Self> {
         let reach = reach.to_f64() * MARGIN;
         if !(reach > 0.0 && reach.is_finite()) {
             return None;
@@ -62,9 +71,7 @@ impl<R: Real, const D: usize> Layout<R, D> {
             Self { low: start, per_length: [R::ZERO; D], cells: [1; D], span: [1; D], period: space.periods() };
         let coarse: f64 = (0..D).map(|a| (extent[a] / size).floor().max(1.0)).product();
         for a in 0..D {
-            // the first axis is cut finer, to about one agent a cell
-            let finer =
-                if a == 0 { (agents as f64 / coarse).round().clamp(1.0, if D < 3 { 4.0 } else { 2.0 }) } else { 1.0 };
+            let finer = if a == 0 { (agents as f64 / coarse).round().clamp(1.0, finest) } else { 1.0 };
             let mut cells = (extent[a] * finer / size).floor().max(1.0);
             let mut span = (reach * cells / extent[a].max(f64::MIN_POSITIVE)).ceil();
             if extent[a] == 0.0 || !span.is_finite() {
@@ -152,6 +159,31 @@ impl<R: Real, const D: usize> Layout<R, D> {
         }
         Some((centre, span))
     }
+    /// The cells around a cell in canonical order, each with the shift of its rows.
+    fn cells_around(&self, centre: [usize; D], span: [usize; D], to: &mut Vec<(u32, Vector<R, D>)>) {
+        let cells = self.cells[0] as isize;
+        self.each_line(centre, span, |line, mut shift| {
+            let base = line * self.cells[0];
+            for step in -(span[0] as isize)..=span[0] as isize {
+                let mut c = centre[0] as isize + step;
+                shift.0[0] = R::ZERO;
+                if c < 0 || c >= cells {
+                    match self.period[0] {
+                        Some(period) if c < 0 => {
+                            c += cells;
+                            shift.0[0] = -period;
+                        }
+                        Some(period) => {
+                            c -= cells;
+                            shift.0[0] = period;
+                        }
+                        None => continue,
+                    }
+                }
+                to.push(((base + c as usize) as u32, shift));
+            }
+        });
+    }
     fn total(&self) -> usize {
         self.cells.iter().product()
     }
@@ -185,7 +217,7 @@ impl<R: Real, const D: usize> Grid<R, D> {
         } else {
             (Vector::ZERO, Vector::ZERO)
         };
-        let layout = Layout::new(space, reach, agents, low, high)?;
+        let layout = Layout::new(space, reach, agents, low, high, if D < 3 { 4.0 } else { 2.0 })?;
         let mut grid = earlier.unwrap_or(Self {
             layout,
             first: Vec::new(),
@@ -458,8 +490,42 @@ impl<R: Real, const D: usize> Grid<R, D> {
 #[derive(Debug)]
 pub struct LiveGrid<R, const D: usize> {
     layout: Layout<R, D>,
-    cells: Vec<Vec<u32>>,
+    reach: R,
+    cells: Vec<LiveCell<R, D>>,
     cell_of: Vec<u32>,
+    /// The cells around each cell with their shifts, for the grid's own reach: `around[first[c]..first[c + 1]]`.
+    around: Vec<(u32, Vector<R, D>)>,
+    first: Vec<u32>,
+}
+
+/// The agents in a cell, with copies of their positions side by side.
+#[derive(Clone, Debug)]
+pub struct LiveCell<R, const D: usize> {
+    /// Rows, ascending.
+    pub rows: Vec<u32>,
+    /// Their positions, `[D][rows]`, with [`PADDING`] places more at the end.
+    pub position: [Vec<R>; D],
+}
+
+impl<R: Real, const D: usize> LiveCell<R, D> {
+    fn empty() -> Self {
+        Self { rows: Vec::new(), position: core::array::from_fn(|_| vec![R::ZERO; PADDING]) }
+    }
+    fn insert(&mut self, row: u32, place: Vector<R, D>) {
+        let at = self.rows.partition_point(|&other| other < row);
+        self.rows.insert(at, row);
+        for a in 0..D {
+            self.position[a].insert(at, place.0[a]);
+        }
+    }
+    fn remove(&mut self, row: u32) {
+        if let Ok(at) = self.rows.binary_search(&row) {
+            self.rows.remove(at);
+            for a in 0..D {
+                self.position[a].remove(at);
+            }
+        }
+    }
 }
 
 impl<R: Real, const D: usize> LiveGrid<R, D> {
@@ -467,12 +533,29 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
     /// cover the positions of this moment, and outer cells hold whoever leaves.
     pub fn new(space: &Space<R, D>, reach: R, columns: &Columns<R, D>) -> Option<Self> {
         let (low, high) = bounds(columns);
-        let layout = Layout::new(space, reach, columns.len(), low, high)?;
-        let mut grid = Self { layout, cells: vec![Vec::new(); layout.total()], cell_of: Vec::new() };
+        let layout = Layout::new(space, reach, columns.len(), low, high, 1.0)?;
+        let mut grid = Self {
+            layout,
+            reach,
+            cells: vec![LiveCell::empty(); layout.total()],
+            cell_of: Vec::new(),
+            around: Vec::new(),
+            first: vec![0],
+        };
         for row in 0..columns.len() {
             let cell = layout.cell(columns.position(row));
             grid.cell_of.push(cell as u32);
-            grid.cells[cell].push(row as u32);
+            grid.cells[cell].insert(row as u32, columns.position(row));
+        }
+        for cell in 0..layout.total() {
+            let mut centre = [0; D];
+            let mut rest = cell;
+            for a in 0..D {
+                centre[a] = rest % layout.cells[a];
+                rest /= layout.cells[a];
+            }
+            layout.cells_around(centre, layout.span, &mut grid.around);
+            grid.first.push(grid.around.len() as u32);
         }
         Some(grid)
     }
@@ -480,56 +563,49 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
     #[inline]
     pub fn follow(&mut self, row: usize, place: Vector<R, D>) {
         let (old, new) = (self.cell_of[row] as usize, self.layout.cell(place));
-        if old == new {
-            return;
+        if old != new {
+            self.cells[old].remove(row as u32);
+            self.cells[new].insert(row as u32, place);
+            self.cell_of[row] = new as u32;
+        } else if let Ok(at) = self.cells[new].rows.binary_search(&(row as u32)) {
+            for a in 0..D {
+                self.cells[new].position[a][at] = place.0[a];
+            }
         }
-        if let Ok(at) = self.cells[old].binary_search(&(row as u32)) {
-            self.cells[old].remove(at);
-        }
-        let at = self.cells[new].partition_point(|&other| other < row as u32);
-        self.cells[new].insert(at, row as u32);
-        self.cell_of[row] = new as u32;
     }
-    /// As [`Grid::within`].
+    /// The cells around a row in canonical order for the grid's own reach, each with the shift of its rows.
     #[inline(always)]
-    pub fn within(
-        &self,
-        columns: &Columns<R, D>,
-        place: Vector<R, D>,
-        radius: R,
-        mut visit: impl FnMut(u32, Vector<R, D>, R),
-    ) -> bool {
-        let l = &self.layout;
-        let Some((centre, span)) = l.search(place, radius) else { return false };
+    pub fn around(&self, row: usize) -> &[(u32, Vector<R, D>)] {
+        let cell = self.cell_of[row] as usize;
+        &self.around[self.first[cell] as usize..self.first[cell + 1] as usize]
+    }
+    /// The reach the cells were made for.
+    #[inline(always)]
+    pub fn reach(&self) -> R {
+        self.reach
+    }
+    /// The agents in a cell.
+    #[inline(always)]
+    pub fn cell(&self, cell: u32) -> &LiveCell<R, D> {
+        &self.cells[cell as usize]
+    }
+    /// As [`Grid::within`], with the positions that this grid followed.
+    pub fn within(&self, place: Vector<R, D>, radius: R, mut visit: impl FnMut(u32, Vector<R, D>, R)) -> bool {
+        let Some((centre, span)) = self.layout.search(place, radius) else { return false };
+        let mut cells = Vec::new();
+        self.layout.cells_around(centre, span, &mut cells);
         let limit = radius * radius;
-        let cells = l.cells[0] as isize;
-        l.each_line(centre, span, |line, mut shift| {
-            let base = line * l.cells[0];
-            for step in -(span[0] as isize)..=span[0] as isize {
-                let mut c = centre[0] as isize + step;
-                shift.0[0] = R::ZERO;
-                if c < 0 || c >= cells {
-                    match l.period[0] {
-                        Some(period) if c < 0 => {
-                            c += cells;
-                            shift.0[0] = -period;
-                        }
-                        Some(period) => {
-                            c -= cells;
-                            shift.0[0] = period;
-                        }
-                        None => continue,
-                    }
-                }
-                for &row in &self.cells[base + c as usize] {
-                    let offset = (columns.position(row as usize) + shift) - place;
-                    let squared = offset.length_squared();
-                    if squared < limit {
-                        visit(row, offset, squared);
-                    }
+        for (cell, shift) in cells {
+            let cell = self.cell(cell);
+            for (at, &row) in cell.rows.iter().enumerate() {
+                let other = Vector(core::array::from_fn(|a| cell.position[a][at]));
+                let offset = (other + shift) - place;
+                let squared = offset.length_squared();
+                if squared < limit {
+                    visit(row, offset, squared);
                 }
             }
-        });
+        }
         true
     }
 }
@@ -637,7 +713,7 @@ mod tests {
                         grid.within(&to, to.position(me), reach, |j, _, _| by_query.push(to.id[j as usize]));
                         assert_eq!(met, by_query, "the same neighbours in the same order");
                         let mut alive = Vec::new();
-                        live.within(&to, to.position(me), reach, |j, _, _| alive.push(to.id[j as usize]));
+                        live.within(to.position(me), reach, |j, _, _| alive.push(to.id[j as usize]));
                         alive.sort_unstable();
                         met.sort_unstable();
                         assert_eq!(met, alive);

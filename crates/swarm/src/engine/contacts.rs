@@ -131,7 +131,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 }
             };
             let searched = cells.as_ref().is_some_and(|cells| {
-                cells.within(&places, to, widest + widest, |other, offset, _| test(other, offset))
+                cells.within(to, widest + widest, |other, offset, _| test(other, offset))
             });
             if !searched {
                 for other in 0..agents {
@@ -181,7 +181,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 }
             };
             let searched = cells.as_ref().is_some_and(|cells| {
-                cells.within(&self.next, place, widest + widest, |other, offset, _| test(other, offset))
+                cells.within(place, widest + widest, |other, offset, _| test(other, offset))
             });
             if !searched {
                 for other in 0..agents {

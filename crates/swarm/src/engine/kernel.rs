@@ -465,7 +465,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         let found = match view.index {
             Index::Pairs => false,
             Index::Sorted(grid) => grid.within(view.others, place, radius, &mut visit),
-            Index::Live(grid) => grid.within(view.others, place, radius, &mut visit),
+            Index::Live(grid) => grid.within(place, radius, &mut visit),
         };
         if !found {
             self.pairs::<L>(view, row, place, radius, scratch);
@@ -1125,33 +1125,82 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Kernel<R, D> for Streamed<M, R,
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
     ) -> Motion<R, D> {
-        let Index::Live(grid) = view.index else { return self.listed.one(view, row, scratch, memory) };
-        if !self.direct() {
-            return self.listed.one(view, row, scratch, memory);
-        }
-        // one agent against its cells, without lists
-        let place = view.now.position(row);
-        let velocity = view.now.velocity(row);
-        let me = MeLanes { velocity: velocity.0, heading: velocity.unit().0 };
-        let mut sums = M::Sums::<R>::zero();
-        let found = grid.within(view.others, place, self.law().reach(), |j, offset, squared| {
-            if j as usize == row || view.dead(view.others, j as usize) {
-                return;
+        match view.index {
+            Index::Live(grid) if self.direct() && self.law().reach() <= grid.reach() => {
+                with_lanes(level(), OneStreamed { kernel: self, view, row, grid, scratch })
             }
-            let velocity = view.others.velocity(j as usize);
-            let other = Other {
-                velocity,
-                heading: if M::HEADINGS { velocity.unit() } else { Vector::ZERO },
-                row: j as usize,
-                others: view.others,
-                columns: &self.listed.stages.columns,
-            };
-            let sets = self.law().classify::<R>(&me, &offset.0, squared, &other);
-            self.law().gather::<R>(&mut sums, &me, &offset.0, squared, &other, &sets);
-        });
-        if found { self.conclude(view, row, &sums, -1.0, scratch) } else { self.listed.one(view, row, scratch, memory) }
+            _ => self.listed.one(view, row, scratch, memory),
+        }
     }
     fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
         self.listed.neighbours(view, row, scratch)
+    }
+}
+
+/// One agent against its cells, without lists: several others are tested at a time, and met one by one.
+struct OneStreamed<'a, 'b, M, R, const D: usize> {
+    kernel: &'a Streamed<M, R, D>,
+    view: &'a View<'b, R, D>,
+    row: usize,
+    grid: &'a LiveGrid<R, D>,
+    scratch: &'a mut Scratch<R, D>,
+}
+
+impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_, M, R, D> {
+    type Output = Motion<R, D>;
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) -> Motion<R, D> {
+        let Self { kernel, view, row, grid, scratch } = self;
+        let law = kernel.law();
+        let place: [L; D] = splat(view.now.position(row));
+        let velocity = view.now.velocity(row);
+        let me = MeLanes { velocity: velocity.0, heading: velocity.unit().0 };
+        let limit = L::splat(law.reach() * law.reach());
+        let mut sums = M::Sums::<R>::zero();
+        for &(cell, shift) in grid.around(row) {
+            let cell = grid.cell(cell);
+            let count = cell.rows.len();
+            let mut first = 0;
+            while first < count {
+                let mut offset = place;
+                for a in 0..D {
+                    offset[a] = (L::load(&cell.position[a][first..]) + L::splat(shift.0[a])) - place[a];
+                }
+                let squared = crate::motion::dot(&offset, &offset);
+                let mut bits = squared.less(limit).bits() & mask_of(count - first);
+                if bits != 0 {
+                    let mut squares = [R::ZERO; WIDEST];
+                    squared.store(&mut squares);
+                    let mut parts = [[R::ZERO; WIDEST]; D];
+                    for a in 0..D {
+                        offset[a].store(&mut parts[a]);
+                    }
+                    while bits != 0 {
+                        let k = bits.trailing_zeros() as usize;
+                        bits &= bits - 1;
+                        let j = cell.rows[first + k] as usize;
+                        if j == row || view.dead(view.others, j) {
+                            continue;
+                        }
+                        let mut to = [R::ZERO; D];
+                        for a in 0..D {
+                            to[a] = parts[a][k];
+                        }
+                        let velocity = view.others.velocity(j);
+                        let other = Other {
+                            velocity,
+                            heading: if M::HEADINGS { velocity.unit() } else { Vector::ZERO },
+                            row: j,
+                            others: view.others,
+                            columns: &kernel.listed.stages.columns,
+                        };
+                        let sets = law.classify::<R>(&me, &to, squares[k], &other);
+                        law.gather::<R>(&mut sums, &me, &to, squares[k], &other, &sets);
+                    }
+                }
+                first += L::WIDTH;
+            }
+        }
+        kernel.conclude(view, row, &sums, -1.0, scratch)
     }
 }

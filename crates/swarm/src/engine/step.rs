@@ -6,7 +6,7 @@ use crate::engine::world::World;
 use crate::motion::Motion;
 use crate::parameters::Scalar;
 use crate::physics::{Contact, Met};
-use space::random::{Purpose, uniform};
+use space::random::{Purpose, uniform, uniforms};
 
 impl<R: Scalar, const D: usize> World<R, D> {
     /// Makes one step (one tick, for an asynchronous world).
@@ -226,10 +226,19 @@ impl<R: Scalar, const D: usize> World<R, D> {
     }
 }
 
-/// Fisher and Yates, with draws for this step alone.
+/// Fisher and Yates, with draws for this step alone, made several at a time.
 fn shuffle(order: &mut [u32], seed: u64, step: u64) {
-    for last in (1..order.len()).rev() {
-        let other = (uniform(seed, Purpose::Environment, step, last as u32 * 8 + 7) * (last as f64 + 1.0)) as usize;
-        order.swap(last, other.min(last));
+    const TOGETHER: usize = 16;
+    let mut last = order.len().saturating_sub(1);
+    while last > 0 {
+        let slots: [u32; TOGETHER] = core::array::from_fn(|k| (last.saturating_sub(k) as u32).wrapping_mul(8) + 7);
+        for draw in uniforms(seed, Purpose::Environment, step, &slots) {
+            if last == 0 {
+                return;
+            }
+            let other = (draw * (last as f64 + 1.0)) as usize;
+            order.swap(last, other.min(last));
+            last -= 1;
+        }
     }
 }

@@ -200,7 +200,7 @@ where
         }
         let farthest = bodies.iter().fold(obstacle_reach, |far, &(_, radius)| far.most(radius));
         let periods = plan.space.periods();
-        let margin = if farthest > R::ZERO { farthest } else { R::ONE };
+        let margin = if farthest > R::ZERO && !plan.obstacles.is_empty() { farthest } else { R::TINY };
         let obstacles = Obstacles::new(plan.obstacles.clone(), periods, margin)
             .map_err(|error| WorldError::World(format!("obstacles: {error}")))?;
         let resources = match plan.resources.clone() {

@@ -64,6 +64,10 @@ fn streams<R: Scalar, const D: usize, M: Stream<R, D>>(
     members: usize,
 ) -> Result<Prepared<R, D>, ParameterError> {
     let law = M::from_values(values)?;
+    if law.sets().iter().any(|set| set.perception.ranks()) {
+        // a rank cannot be told neighbour by neighbour: the same sums, over lists
+        return prepared(law, members, M::sets, None, |law, stages| Box::new(Listed { law: Summed(law), stages }));
+    }
     let reach = law.reach();
     prepared(law, members, M::sets, Some(reach), |law, stages| {
         Box::new(Streamed { listed: Listed { law: Summed(law), stages } })
@@ -139,8 +143,24 @@ macro_rules! models {
 // one line a model: whether it streams or is given lists, file and type, dimensions
 models! {
     streams vicsek_1995::Vicsek1995 in [2, 3];
+    streams gregoire_2003_vectorial::Gregoire2003Vectorial in [2, 3];
+    streams camperi_2012::Camperi2012 in [2, 3];
+    lists ballerini_2008::Ballerini2008 in [2, 3];
     streams couzin_2002::Couzin2002 in [2, 3];
+    lists gueron_1996::Gueron1996 in [2];
+    lists cucker_smale_2007::CuckerSmale2007 in [1, 2, 3];
+    lists gazi_passino_2005::GaziPassino2005 in [1];
+    lists olfati_saber_2006::OlfatiSaber2006 in [2, 3];
+    lists helbing_2005::Helbing2005 in [2];
+    streams reynolds_opensteer::ReynoldsOpensteer in [2, 3];
+    streams boids_rule_vectors::BoidsRuleVectors in [2, 3];
+    lists hamilton_1d::Hamilton1d in [1];
     lists viscido_snn::ViscidoSnn in [2, 3];
+    lists viscido_ha::ViscidoHa in [2];
+    lists ha_extended::HaExtended in [2];
+    lists lch_group_pose::LchGroupPose in [2, 3];
+    lists behaviour_selection::BehaviourSelection in [3];
+    streams control_boids::ControlBoids in [2];
     streams boids_unit_heading::BoidsUnitHeading in [2, 3];
     streams abm_flocking::AbmFlocking in [2];
 }

@@ -126,6 +126,7 @@ impl<R: Scalar, const D: usize> Perception<R, D> {
                     Reach::All
                 }
             }
+            Self::KNearest(0) => Reach::Within(R::TINY),
             Self::Nearest => Reach::Nearest(1),
             Self::KNearest(k) => Reach::Nearest(*k),
             Self::BoundingBox { low, high, .. } => {

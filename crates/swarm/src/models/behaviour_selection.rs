@@ -1,0 +1,635 @@
+//! One behaviour at a time: avoid whoever is near, else align with or go to the others, by a draw that depends on how many
+//! there are to align with.
+//!
+//! The agents of a 3-D study of collective motion in which each selects one behaviour per step by a logistic function of the
+//! number of its aligning neighbours (the study's Algorithm 1 and equations 1 to 7).
+
+use crate::card::*;
+use crate::motion::*;
+use crate::parameters::Scalar;
+use crate::selection::{NamedSet, Perception};
+use crate::sensing::cos_half;
+use crate::{choice, parameters};
+use space::{Column, ColumnKind, Real, Vector};
+
+choice! {
+    /// How an agent that could both align and be attracted decides.
+    pub enum Variant {
+        /// Aligns with the probability `1/(1 + exp(-K (n_align - M)))`.
+        Logistic = "logistic",
+        /// Takes the average of both directions.
+        Control = "control",
+        /// Aligns with a constant probability.
+        Preset = "preset",
+        /// The first members of the group are of kind b, the others of kind a; both logistic.
+        Mixed = "mixed",
+        /// Everyone draws its kind anew in each step.
+        Switching = "switching",
+    }
+}
+choice! {
+    /// The shape of the field of view.
+    pub enum View {
+        /// A cone about the heading.
+        Cone = "cone",
+        /// Limits of azimuth and elevation, each for itself.
+        Axes = "axes",
+    }
+}
+choice! {
+    /// How the average of two directions is taken.
+    pub enum Average {
+        /// Of their unit vectors.
+        Unit = "unit",
+        /// Of the sums as they are.
+        Raw = "raw",
+    }
+}
+choice! {
+    /// Along which heading an agent moves.
+    pub enum Update {
+        /// The one chosen in this step.
+        New = "new",
+        /// The one before it.
+        Old = "old",
+    }
+}
+
+parameters! {
+    /// Parameters of `behaviour_selection`.
+    pub struct BehaviourSelection {
+        /// How the choice between alignment and attraction is made.
+        variant: Variant = "logistic", "-", "-", Any, Source;
+        /// Number of aligning neighbours at which both are equally likely.
+        preferred_neighbours alias "M": R = 10.0, "M", "1", Any, Source;
+        /// Growth of the logistic function.
+        growth alias "K": R = 2.0, "K", "1", NonNegative, Source;
+        /// Probability of alignment, for the variant `preset`.
+        probability alias "P": R = 0.5, "P", "1", Within(0.0, 1.0), Source;
+        /// Share of kind b, for the variants `mixed` and `switching`.
+        share_b alias "ratio_b": R = 0.0, "-", "%", Within(0.0, 100.0), Source;
+        /// Preferred neighbours of kind a.
+        preferred_neighbours_a alias "Ma": R = 0.0, "M_a", "1", Any, Source;
+        /// Growth of kind a.
+        growth_a alias "Ka": R = 4.0, "K_a", "1", NonNegative, Source;
+        /// Preferred neighbours of kind b.
+        preferred_neighbours_b alias "Mb": R = 10.0, "M_b", "1", Any, Source;
+        /// Growth of kind b.
+        growth_b alias "Kb": R = 2.0, "K_b", "1", NonNegative, Source;
+        /// So many nearest neighbours of a zone are aligned with or gone to; 0 means all.
+        considered alias "N": usize = 0usize, "N", "1", NonNegative, Source;
+        /// Speed, the same for all.
+        speed alias "s": R = 6.0, "s", "length/time", Positive, Source;
+        /// Length of a step.
+        time_step alias "tau": R = 0.1, "tau", "time", Positive, Source;
+        /// Body radius.
+        body_radius alias "r_agent": R = 1.0, "r_agent", "length", NonNegative, Source;
+        /// Width of the zone of avoidance, from surface to surface.
+        avoidance_radius alias "r_avoid": R = 4.0, "r_avoid", "length", NonNegative, Source;
+        /// Outer radius of the zone of alignment, from surface to surface.
+        alignment_radius alias "r_align": R = 10.0, "r_align", "length", NonNegative, Source;
+        /// Outer radius of the zone of attraction, from surface to surface; the bound is included.
+        sight_radius alias "r_fov": R = 24.0, "r_fov", "length", Positive, Source;
+        /// Full field of view: of the cone, or of the azimuth.
+        field_of_view alias "fov_deg": R = 270.0, "theta_fov", "deg", Within(0.0, 360.0), Source;
+        /// Full field of view of the elevation, where the view is by axes.
+        vertical_field_of_view alias "fov_v_deg": R = 360.0, "phi_fov", "deg", Within(0.0, 360.0), Ours;
+        /// Shape of the field of view.
+        view alias "fov": View = "cone", "-", "-", Any, Ours;
+        /// Largest turning rate of the azimuth.
+        horizontal_turning_rate alias "turn_h": R = 180.0, "theta_max", "deg/time", NonNegative, Source;
+        /// Largest turning rate of the elevation.
+        vertical_turning_rate alias "turn_v": R = 90.0, "phi_max", "deg/time", NonNegative, Source;
+        /// Whether the blind region hides members that would be avoided.
+        avoid_blind: bool = true, "-", "-", Any, Source;
+        /// Whether the blind region hides obstacles and walls.
+        obstacle_blind alias "obs_blind": bool = false, "-", "-", Any, Ours;
+        /// How the variant `control` averages.
+        control_mode: Average = "unit", "-", "-", Any, Ours;
+        /// Along which heading a step goes.
+        position_update alias "move": Update = "new", "-", "-", Any, Ours;
+    }
+}
+
+/// Declared columns, in their order.
+const THETA: usize = 0;
+const PHI: usize = 1;
+const N_AVOID: usize = 2;
+const N_ALIGN: usize = 3;
+const N_ATTRACT: usize = 4;
+const O_AVOID: usize = 5;
+const BEHAVIOUR: usize = 6;
+const KIND: usize = 8;
+
+/// Named sets, in their order.
+const AVOIDANCE: usize = 0;
+const ALIGNMENT: usize = 1;
+const ATTRACTION: usize = 2;
+
+/// Directions shorter than this share of their parts do not turn anyone.
+const SHORT: f64 = 1e-9;
+
+/// Up to so many nearest are kept in order while looking.
+const KEPT: usize = 16;
+
+#[derive(Clone, Copy)]
+enum Behaviour {
+    Avoid = 0,
+    Align = 1,
+    Attract = 2,
+    Search = 3,
+    Average = 4,
+}
+
+impl<R: Scalar> Law<R> for BehaviourSelection<R> {
+    const CARD: Card = Card {
+        id: "behaviour_selection",
+        title: "Selection of one behaviour at a time",
+        about: "Agents avoid whoever and whatever is near, else align, else approach, and draw by the number of their neighbours \
+                where they could do both.",
+        reference: "A 3-D study of behaviour selection in collective motion (source 000): Algorithm 1 and equations 1-7",
+        equations: "d = distance between surfaces;  h = (cos phi cos theta, cos phi sin theta, sin phi)\n\
+                    anybody or anything in z_avoid: avoid, w = -sum e_ij + sum of unit vectors away from obstacles and walls\n\
+                    only z_align filled: align, w = sum h_j;  only z_attract: attract, w = sum e_ij (N nearest of each)\n\
+                    both: align if R < P = 1/(1 + exp(-K (n_align - M))), else attract;  control: w = unit(a) + unit(b)\n\
+                    none: search, Dtheta = delta_1 theta_max tau, Dphi = delta_2 phi_max tau\n\
+                    Dtheta = wrap(atan2(w_y, w_x) - theta), Dphi = asin(w_z/|w|) - phi, each clamped to its rate\n\
+                    theta' = wrap(theta + Dtheta);  phi' = clamp(phi + Dphi, -90, 90);  x_i' = x_i + s tau h_i'",
+        stages: Stages {
+            sensing: "ideal",
+            detection: "ideal",
+            selection: "avoidance = d in [0, r_avoid); alignment = [r_avoid, r_align); attraction = [r_align, r_fov]; all \
+                        within angle(270); the law takes the N nearest of the last two",
+            motion: "one behaviour, selected by counts",
+            physics: "turn-limited in azimuth and elevation, constant speed; a move that would touch is refused",
+            obstacles: "obstacles and walls nearer than r_avoid, sensed all round",
+        },
+        departures: "obstacles and walls are sensed all round; walls are avoided like obstacles; moves go along the new heading; \
+                     control averages unit vectors. Each has a parameter for the literal reading. N = 0 stands for all others",
+        edge: "nobody sensed: search; a resultant below 1e-9 keeps the heading; an upright one keeps theta; an exact half turn \
+               goes to the left; coincident members have no direction but count",
+        random: &[
+            RandomQuantity {
+                name: "choice",
+                about: "uniform in [0, 1), where both zones are filled; behaviour slot 0",
+            },
+            RandomQuantity { name: "search_theta", about: "uniform in [-1, 1), in search; behaviour slot 1" },
+            RandomQuantity { name: "search_phi", about: "uniform in [-1, 1), in search; behaviour slot 2" },
+            RandomQuantity { name: "switch", about: "uniform in [0, 1), variant switching; behaviour slot 3" },
+        ],
+        taxonomy: Taxonomy {
+            composition: Composition::Heterogeneous,
+            idealized: true,
+            discrete: true,
+            avoidance: Avoidance::All,
+            identification: false,
+            uses: [true, false, true],
+            validation: "S",
+            synchronous: true,
+            information: [Information::Global, Information::Constant, Information::Global],
+            environment: "bounded obstacles",
+        },
+    };
+    fn columns() -> &'static [Column] {
+        const fn column(name: &'static str, unit: &'static str, kind: ColumnKind, about: &'static str) -> Column {
+            Column { name, unit, kind, about }
+        }
+        const COLUMNS: [Column; 9] = [
+            column("theta", "rad", ColumnKind::Quantity, "Azimuth of the heading."),
+            column("phi", "rad", ColumnKind::Quantity, "Elevation of the heading."),
+            column("n_avoid", "1", ColumnKind::Count, "Visible members in the zone of avoidance."),
+            column("n_align", "1", ColumnKind::Count, "Visible members in the zone of alignment."),
+            column("n_attract", "1", ColumnKind::Count, "Visible members in the zone of attraction."),
+            column("o_avoid", "1", ColumnKind::Count, "Obstacles and walls in the zone of avoidance."),
+            column(
+                "behaviour",
+                "1",
+                ColumnKind::Label(&["avoid", "align", "attract", "search", "average"]),
+                "Behaviour selected in the step.",
+            ),
+            column("collided", "1", ColumnKind::Count, "Whether the move of the step was refused."),
+            column("kind", "1", ColumnKind::Label(&["a", "b"]), "Kind in force, in mixed and switching groups."),
+        ];
+        &COLUMNS
+    }
+    fn time_step(&self) -> R {
+        self.time_step
+    }
+    fn initial_speed(&self) -> R {
+        self.speed
+    }
+    fn body_radius(&self) -> R {
+        self.body_radius
+    }
+    fn obstacle_reach(&self) -> Option<R> {
+        Some(self.avoidance_radius + self.body_radius)
+    }
+    fn check(&self, _: usize) -> Result<(), String> {
+        if self.avoidance_radius > self.alignment_radius || self.alignment_radius > self.sight_radius {
+            return Err("the radii must not decrease from avoidance over alignment to sight".into());
+        }
+        Ok(())
+    }
+}
+
+impl<R: Scalar> BehaviourSelection<R> {
+    /// Bounds of the zones, from centre to centre.
+    #[inline(always)]
+    fn bounds(&self) -> [R; 3] {
+        let bodies = self.body_radius + self.body_radius;
+        // sight includes its bound, so its last number is the next one
+        let next = R::ONE + R::of(f64::EPSILON) + R::of(f64::EPSILON);
+        let next = if next > R::ONE { next } else { R::ONE + R::of(f64::from(f32::EPSILON)) };
+        [self.avoidance_radius + bodies, self.alignment_radius + bodies, (self.sight_radius + bodies) * next]
+    }
+    /// Whether a direction (of any length) lies within the field of view.
+    #[inline(always)]
+    fn sees(&self, heading: Vector<R, 3>, (theta, phi): (R, R), offset: Vector<R, 3>) -> bool {
+        match self.view {
+            View::Cone => {
+                let limit = cos_half(self.field_of_view.radians());
+                in_view::<R, R, 3>(&heading.0, &offset.0, offset.length_squared(), limit)
+            }
+            View::Axes => {
+                let level = (offset[0].squared() + offset[1].squared()).root();
+                let aside = (offset[1].atan2(offset[0]) - theta).wrapped().abs();
+                let above = (offset[2].atan2(level) - phi).abs();
+                let (half, vertical) = (self.field_of_view.radians(), self.vertical_field_of_view.radians());
+                // straight above or below has no azimuth
+                (aside <= half * R::HALF || level <= R::TINY) && above <= vertical * R::HALF
+            }
+        }
+    }
+    /// The heading of two angles.
+    #[inline(always)]
+    fn heading_of(theta: R, phi: R) -> Vector<R, 3> {
+        let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
+        Vector([cos_phi * cos_theta, cos_phi * sin_theta, sin_phi])
+    }
+    /// The angles of a direction that is not zero; `theta` where it is upright.
+    #[inline(always)]
+    fn angles_of(direction: Vector<R, 3>, theta: R) -> (R, R) {
+        let level = (direction[0].squared() + direction[1].squared()).root();
+        let length = direction.length();
+        let azimuth = if level < length * R::of(SHORT) { theta } else { direction[1].atan2(direction[0]) };
+        (azimuth, (direction[2] / length).asin())
+    }
+    /// Whether the member is of kind b in this step.
+    #[inline(always)]
+    fn is_b(&self, me: &Me<'_, R, 3>, draws: &Draws<'_>) -> bool {
+        let share = self.share_b.to_f64() / 100.0;
+        match self.variant {
+            Variant::Mixed => (me.member() as f64) < (f64::from(me.around.group.1) * share + 0.5).floor(),
+            Variant::Switching => draws.number::<f64>("switch", 1.0, |s| s.uniform(3)) < share,
+            _ => false,
+        }
+    }
+    /// The probability of aligning with so many.
+    #[inline(always)]
+    fn probability(&self, b: bool, aligning: u32) -> f64 {
+        let (preferred, growth) = match self.variant {
+            Variant::Preset => return self.probability.to_f64(),
+            Variant::Mixed | Variant::Switching if b => (self.preferred_neighbours_b, self.growth_b),
+            Variant::Mixed | Variant::Switching => (self.preferred_neighbours_a, self.growth_a),
+            _ => (self.preferred_neighbours, self.growth),
+        };
+        let exponent = -growth.to_f64() * (f64::from(aligning) - preferred.to_f64());
+        // from libm, as everywhere
+        1.0 / (1.0 + Real::exp(exponent))
+    }
+    /// Calls `add` with the `considered` nearest members of a set of `count`.
+    #[inline(always)]
+    fn nearest(
+        &self,
+        seen: &Percepts<'_, R, 3>,
+        visible: impl Fn(usize) -> u32,
+        set: usize,
+        count: u32,
+        mut add: impl FnMut(usize),
+    ) {
+        let considered = self.considered;
+        let inside = |k: usize| visible(k) >> set & 1 == 1;
+        let before = |a: usize, b: usize| {
+            seen.squared[a] < seen.squared[b] || (seen.squared[a] == seen.squared[b] && seen.id(a) < seen.id(b))
+        };
+        if considered == 0 || considered >= count as usize {
+            (0..seen.len()).filter(|&k| inside(k)).for_each(add);
+        } else if considered <= KEPT {
+            let mut kept = [0usize; KEPT];
+            let mut filled = 0;
+            for k in (0..seen.len()).filter(|&k| inside(k)) {
+                if filled == considered {
+                    if !before(k, kept[filled - 1]) {
+                        continue;
+                    }
+                } else {
+                    filled += 1;
+                }
+                let mut at = filled - 1;
+                while at > 0 && before(k, kept[at - 1]) {
+                    kept[at] = kept[at - 1];
+                    at -= 1;
+                }
+                kept[at] = k;
+            }
+            kept[..filled].iter().for_each(|&k| add(k));
+        } else {
+            // too many to keep in order, too few to take all: whoever has fewer nearer ones than that
+            for k in (0..seen.len()).filter(|&k| inside(k)) {
+                if (0..seen.len()).filter(|&j| inside(j) && before(j, k)).count() < considered {
+                    add(k);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn decided(
+        &self,
+        me: &mut Me<'_, R, 3>,
+        seen: &Percepts<'_, R, 3>,
+        visible: impl Fn(usize) -> u32 + Copy,
+        draws: &Draws<'_>,
+    ) -> Motion<R, 3> {
+        let (theta, phi) = (me.own[THETA], me.own[PHI]);
+        let mut counts = [0u32; 3];
+        for k in 0..seen.len() {
+            let bits = visible(k);
+            for (set, count) in counts.iter_mut().enumerate() {
+                *count += bits >> set & 1;
+            }
+        }
+        let (mut away, mut obstacles) = (Vector::<R, 3>::ZERO, 0u32);
+        for obstacle in me.around.obstacles {
+            if !self.obstacle_blind || self.sees(me.heading(), (theta, phi), -obstacle.away) {
+                away += obstacle.away;
+                obstacles += 1;
+            }
+        }
+        // sums of headings are sums of velocities, as all are equally fast
+        let headings = || {
+            let mut sum = Vector::<R, 3>::ZERO;
+            self.nearest(seen, visible, ALIGNMENT, counts[ALIGNMENT], |k| sum += seen.velocity(k));
+            sum / self.speed
+        };
+        let directions = || {
+            let mut sum = Vector::<R, 3>::ZERO;
+            self.nearest(seen, visible, ATTRACTION, counts[ATTRACTION], |k| sum += seen.direction(k));
+            sum
+        };
+        let b = self.is_b(me, draws);
+        let behaviour = match (counts[AVOIDANCE] + obstacles, counts[ALIGNMENT], counts[ATTRACTION]) {
+            (0, 0, 0) => Behaviour::Search,
+            (0, _, 0) => Behaviour::Align,
+            (0, 0, _) => Behaviour::Attract,
+            (0, ..) if self.variant == Variant::Control => Behaviour::Average,
+            (0, aligning, _) => {
+                let drawn = draws.number::<f64>("choice", 1.0, |s| s.uniform(0));
+                if drawn < self.probability(b, aligning) { Behaviour::Align } else { Behaviour::Attract }
+            }
+            _ => Behaviour::Avoid,
+        };
+        let wanted = match behaviour {
+            Behaviour::Avoid => {
+                let mut sum = away;
+                for k in (0..seen.len()).filter(|&k| visible(k) >> AVOIDANCE & 1 == 1) {
+                    sum -= seen.direction(k);
+                }
+                sum
+            }
+            Behaviour::Align => headings(),
+            Behaviour::Attract => directions(),
+            Behaviour::Average => {
+                let (a, b) = (headings(), directions());
+                match self.control_mode {
+                    Average::Unit => a.unit() + b.unit(),
+                    Average::Raw => a + b,
+                }
+            }
+            Behaviour::Search => Vector::ZERO,
+        };
+        let limits = [self.horizontal_turning_rate, self.vertical_turning_rate].map(|r| r.radians() * self.time_step);
+        let (mut turn, mut rise) = (R::ZERO, R::ZERO);
+        if let Behaviour::Search = behaviour {
+            turn = limits[0] * draws.number("search_theta", 0.0, |s| 2.0 * s.uniform(1) - 1.0);
+            rise = limits[1] * draws.number("search_phi", 0.0, |s| 2.0 * s.uniform(2) - 1.0);
+        } else if wanted.length() >= R::of(SHORT) {
+            let (azimuth, elevation) = Self::angles_of(wanted, theta);
+            turn = (azimuth - theta).wrapped().clamped(-limits[0], limits[0]);
+            rise = (elevation - phi).clamped(-limits[1], limits[1]);
+        }
+        me.note("wanted direction", wanted);
+        let (theta, phi) = ((theta + turn).wrapped(), (phi + rise).clamped(-R::PI * R::HALF, R::PI * R::HALF));
+        (me.own[THETA], me.own[PHI], me.own[KIND]) = (theta, phi, R::of(f64::from(u8::from(b))));
+        let count = |count: u32| R::of(f64::from(count));
+        (me.own[N_AVOID], me.own[N_ALIGN], me.own[N_ATTRACT]) = (count(counts[0]), count(counts[1]), count(counts[2]));
+        (me.own[O_AVOID], me.own[BEHAVIOUR]) = (count(obstacles), count(behaviour as u32));
+        let velocity = Self::heading_of(theta, phi) * self.speed;
+        match self.position_update {
+            Update::New => Motion::new_velocity(velocity, self.time_step),
+            Update::Old => Motion::old_velocity(me.velocity, velocity, self.time_step),
+        }
+    }
+}
+
+impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
+    fn sets(&self) -> Vec<NamedSet<R, 3>> {
+        let [near, middle, far] = self.bounds();
+        let ring = |low: R, high: R, seen: bool| {
+            let ring = if high > low { Perception::distance(low, high) } else { Perception::KNearest(0) };
+            // the view by axes is left to the law: it hangs on the azimuth, which a heading straight up does not have
+            let cone = seen && self.view == View::Cone;
+            if cone { ring.both(Perception::angle(self.field_of_view.radians())) } else { ring }
+        };
+        vec![
+            NamedSet::new("avoidance", ring(R::ZERO, near, self.avoid_blind)),
+            NamedSet::new("alignment", ring(near, middle, true)),
+            NamedSet::new("attraction", ring(middle, far, true)),
+        ]
+    }
+    fn complete(&self, start: &mut Start<'_, R, 3>) {
+        if !(start.given[THETA] && start.given[PHI]) {
+            let (theta, phi) =
+                if start.velocity.is_tiny() { (R::ZERO, R::ZERO) } else { Self::angles_of(*start.velocity, R::ZERO) };
+            if !start.given[THETA] {
+                start.own[THETA] = theta;
+            }
+            if !start.given[PHI] {
+                start.own[PHI] = phi;
+            }
+        }
+        *start.velocity = Self::heading_of(start.own[THETA], start.own[PHI]) * self.speed;
+    }
+    #[inline(always)]
+    fn select(&self, heading: Vector<R, 3>, offset: &[&[R]; 3], squared: &[R], sets: &mut [u32]) -> bool {
+        let [near, middle, far] = self.bounds().map(|bound| bound * bound);
+        let limit = cos_half(self.field_of_view.radians());
+        let resting = heading.length_squared() <= R::ZERO || self.view == View::Axes;
+        let behind = !self.avoid_blind;
+        let count = sets.len();
+        let [x, y, z] = offset.map(|o| &o[..count]);
+        let squared = &squared[..count];
+        for k in 0..count {
+            let distance = squared[k].root();
+            let ahead = limit * distance <= heading[0] * x[k] + heading[1] * y[k] + heading[2] * z[k];
+            let seen = ahead | (distance <= R::TINY) | resting;
+            let (avoid, align) = (squared[k] < near, squared[k] < middle);
+            let attract = squared[k] < far;
+            sets[k] = u32::from(avoid & (seen | behind))
+                | u32::from(align & !avoid & seen) << ALIGNMENT
+                | u32::from(attract & !align & seen) << ATTRACTION;
+        }
+        true
+    }
+    #[inline(always)]
+    fn decide(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, draws: &Draws<'_>) -> Motion<R, 3> {
+        match self.view {
+            View::Cone => self.decided(me, seen, |k| seen.sets[k], draws),
+            View::Axes => {
+                let (heading, angles) = (me.heading(), (me.own[THETA], me.own[PHI]));
+                let visible = |k: usize| {
+                    let hidden = seen.sets[k] != 0 && !self.sees(heading, angles, seen.offset(k));
+                    let always = if self.avoid_blind { 0 } else { 1 << AVOIDANCE };
+                    if hidden { seen.sets[k] & always } else { seen.sets[k] }
+                };
+                self.decided(me, seen, visible, draws)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::models::oracle::{Oracle, close};
+    use space::Space;
+    use space::shape::Shape;
+
+    type State = ([f64; 3], [f64; 3]);
+    const AHEAD: [f64; 3] = [6.0, 0.0, 0.0];
+
+    fn oracle() -> Oracle<3> {
+        Oracle::new("behaviour_selection")
+    }
+    fn heading(theta: f64, phi: f64) -> [f64; 3] {
+        (BehaviourSelection::<f64>::heading_of(theta.to_radians(), phi.to_radians()) * 6.0).0
+    }
+    /// Behaviour, azimuth and elevation (degrees) of member 0 after a step.
+    #[track_caller]
+    fn selects(oracle: Oracle<3>, agents: &[State], behaviour: f64, theta: f64, phi: f64) {
+        let w = oracle.step(agents);
+        assert_eq!(w.state(0, "behaviour"), Some(behaviour));
+        let found = ["theta", "phi"].map(|name| w.state(0, name).unwrap_or(f64::NAN).to_degrees());
+        assert!((found[0] - theta).abs() < 1e-9 && (found[1] - phi).abs() < 1e-9, "{found:?}, not {theta}, {phi}");
+        close(w.velocity(0), heading(theta, phi));
+    }
+
+    #[test]
+    fn one_neighbour_in_each_zone() {
+        // centres 5 apart: surfaces 3, avoided, and turns of 18 and 9 degrees at most
+        selects(oracle(), &[([0.0; 3], AHEAD), ([0.0, -3.0, 4.0], AHEAD)], 0.0, 18.0, -9.0);
+        selects(oracle(), &[([0.0; 3], AHEAD), ([0.0, 8.0, 0.0], heading(10.0, 5.0))], 1.0, 10.0, 5.0);
+        selects(oracle(), &[([0.0; 3], AHEAD), ([15.0, 0.0, 2.0], AHEAD)], 2.0, 0.0, (2f64 / 15.0).atan().to_degrees());
+        // sight includes its bound of 24, from surface to surface; behind is blind
+        selects(oracle(), &[([0.0; 3], AHEAD), ([0.0, 26.0, 0.0], AHEAD)], 2.0, 18.0, 0.0);
+        selects(oracle(), &[([0.0; 3], AHEAD), ([0.0, 26.001, 0.0], AHEAD)], 3.0, 0.0, 0.0);
+        selects(oracle(), &[([0.0; 3], AHEAD), ([-8.0, 0.5, 0.0], AHEAD)], 3.0, 0.0, 0.0);
+    }
+
+    #[test]
+    fn both_zones_filled_is_a_matter_of_the_draw() {
+        let agents = [([0.0; 3], AHEAD), ([0.0, 8.0, 0.0], heading(10.0, 5.0)), ([15.0, 0.0, -2.0], AHEAD)];
+        let down = -(2f64 / 15.0).atan().to_degrees();
+        // P = 1/(1 + exp(2 (10 - 1))) = 1.5e-8
+        selects(oracle().inject("choice", &[1.5e-8; 3]), &agents, 1.0, 10.0, 5.0);
+        selects(oracle().inject("choice", &[1.6e-8; 3]), &agents, 2.0, 0.0, down);
+        for (p, behaviour) in [(0.0, 2.0), (1.0, 1.0)] {
+            let w = oracle().set("variant", "preset").set("P", p).inject("choice", &[0.0; 3]).step(&agents);
+            assert_eq!(w.state(0, "behaviour"), Some(behaviour));
+        }
+        let sum = Vector(heading(10.0, 5.0)) * (1.0 / 6.0) + Vector([15.0, 0.0, -2.0]).unit();
+        let (theta, phi) = BehaviourSelection::angles_of(sum, 0.0);
+        selects(oracle().set("variant", "control"), &agents, 4.0, theta.to_degrees(), phi.to_degrees());
+    }
+
+    #[test]
+    fn the_n_nearest_of_a_zone_count_and_ties_go_to_the_lower_index() {
+        let agents = [
+            ([0.0; 3], AHEAD),
+            ([0.0, 9.0, 0.0], heading(90.0, 0.0)),
+            ([0.0, -8.0, 0.0], heading(12.0, 0.0)),
+            ([0.0, 8.0, 0.0], heading(-6.0, 0.0)),
+            ([0.0, 0.0, 8.0], heading(-90.0, 0.0)),
+        ];
+        selects(oracle().set("N", 1usize), &agents, 1.0, 12.0, 0.0);
+        selects(oracle().set("N", 2usize), &agents, 1.0, 3.0, 0.0);
+        assert_eq!(oracle().set("N", 1usize).step(&agents).state(0, "n_align"), Some(4.0));
+        // the same through every way of finding them
+        let crowd: Vec<State> = (0..40)
+            .map(|k| {
+                let (angle, height) = (f64::from(k) * 2.4, f64::from(k) / 20.0 - 1.0);
+                let place = Vector([0.3 + angle.cos(), angle.sin(), height]).unit() * (7.0 + 0.1 * f64::from(k));
+                (place.0, heading(f64::from(k), f64::from(k) / 2.0))
+            })
+            .collect();
+        for considered in [1usize, 6, 16, 17, 30, 39, 0] {
+            let agents: Vec<State> = core::iter::once(([0.0; 3], AHEAD)).chain(crowd.iter().copied()).collect();
+            let w = oracle().set("fov_deg", 360.0).set("N", considered).set("turn_h", 3600.0).step(&agents);
+            let taken = if considered == 0 { 40 } else { considered };
+            let sum = crowd[..taken].iter().fold(Vector::ZERO, |sum, agent| sum + Vector(agent.1));
+            let theta = BehaviourSelection::angles_of(sum, 0.0).0;
+            assert!((w.state(0, "theta").unwrap_or(f64::NAN) - theta).abs() < 1e-9, "N = {considered}");
+        }
+    }
+
+    #[test]
+    fn walls_and_obstacles_are_avoided_all_round_and_moves_that_touch_are_refused() {
+        let tank = || oracle().space(Space::walled([100.0; 3]));
+        // right behind: sensed, unless obstacles hide in the blind region too
+        let away = [([3.0, 50.0, 50.0], heading(17.0, 0.0))];
+        selects(tank(), &away, 0.0, 0.0, 0.0);
+        selects(tank().set("obs_blind", true), &away, 3.0, 17.0, 0.0);
+        let ball = || Shape::new_ball(Vector([62.5, 50.0, 50.0]), 10.0).unwrap_or_else(|_| unreachable!());
+        let w = tank().obstacle(ball()).step(&[([51.5, 50.0, 50.0], AHEAD)]);
+        assert_eq!((w.state(0, "o_avoid"), w.state(0, "collided")), (Some(1.0), Some(1.0)));
+        close(w.position(0), [51.5, 50.0, 50.0]);
+        close(w.velocity(0), heading(18.0, 0.0));
+        let w = tank().obstacle(ball()).step(&[([47.5, 50.0, 50.0], AHEAD)]);
+        assert_eq!((w.state(0, "o_avoid"), w.state(0, "collided")), (Some(0.0), Some(0.0)));
+    }
+
+    #[test]
+    fn an_upright_wish_keeps_the_azimuth_and_the_elevation_stops_at_the_pole() {
+        let above = [([0.0; 3], heading(40.0, 85.0)), ([0.0, 0.0, 15.0], AHEAD)];
+        selects(oracle(), &above, 2.0, 40.0, 90.0);
+        let search = oracle().inject("search_theta", &[0.5]).inject("search_phi", &[-1.0]);
+        selects(search, &[([0.0; 3], heading(175.0, 0.0))], 3.0, -176.0, -9.0);
+    }
+
+    #[test]
+    fn quick_selection_is_the_named_sets() {
+        let agents: Vec<State> = (0..60)
+            .map(|k| {
+                let k = f64::from(k);
+                ([(k * 7.3) % 31.0, (k * 3.7) % 29.0, (k * 5.9) % 23.0], heading(k * 37.0, (k * 17.0) % 90.0))
+            })
+            .collect();
+        for (view, blind) in [("cone", true), ("cone", false), ("axes", true)] {
+            let set_up = || oracle().set("fov", view).set("avoid_blind", blind);
+            let quick = set_up().step(&agents);
+            let mut slow = set_up();
+            let law = <BehaviourSelection<f64> as crate::parameters::Parameters>::from_values(
+                &slow.plan.groups[0].parameters,
+            );
+            // the same functions as the scenario's own choice: the quick way is not taken
+            let sets = law.map(|law| law.sets()).unwrap_or_default();
+            slow.plan.groups[0].sets = sets.into_iter().map(|set| (set.name.to_owned(), set.perception)).collect();
+            let slow = slow.step(&agents);
+            for id in 0..60 {
+                for name in ["n_avoid", "n_align", "n_attract", "theta", "phi"] {
+                    assert_eq!(quick.state(id, name), slow.state(id, name), "{view} {name} {id}");
+                }
+            }
+        }
+    }
+}
