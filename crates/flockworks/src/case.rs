@@ -259,6 +259,12 @@ impl Case {
                         None => entry.fault(format_args!("unknown word \"{word}\"{}", hint(word, words))),
                     },
                     (Json::Bool(truth), _) => Ok(f64::from(u8::from(*truth))),
+                    (_, ColumnKind::Label(words)) => match entry.whole()? {
+                        label if (label as usize) < words.len() => Ok(label as f64),
+                        label => {
+                            entry.fault(format_args!("expected a label from 0 to {}, found {label}", words.len() - 1))
+                        }
+                    },
                     _ => entry.number(),
                 };
                 let values = list.iter().map(read).collect::<Result<_, _>>()?;

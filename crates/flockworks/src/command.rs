@@ -1,7 +1,9 @@
 //! The commands and their options.
 
+use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
+use crate::models::{ModelsOptions, models};
 use crate::step::{StepOptions, step};
 use clap::{Parser, Subcommand};
 use std::io::Write;
@@ -28,8 +30,24 @@ pub enum Command {
     Step(StepOptions),
     /// Run every case of a file and compare with the state it expects.
     ///
-    /// The last line is `N of M`: cases passed of cases run. The exit code is 1 if a case fails or its model is unknown.
+    /// The last line is `N of M`: cases passed of cases run.
+    /// The exit code is 1 if a case fails or its model is unknown.
+    #[command(verbatim_doc_comment)]
     Conformance(ConformanceOptions),
+    /// List the models, or show one: equations, parameters, stages, state, random quantities, classification.
+    Models(ModelsOptions),
+    /// Measure the speed of the workloads, or of every model.
+    ///
+    /// W1, W1c  Vicsek, 2-D: near uniform, and clustered
+    /// W2       boids with unit headings, 3-D
+    /// W3       the flocking benchmark of agent-based-model frameworks, 2-D, one agent after the other
+    /// W4       a trial of the behaviour-selection study, 3-D: W4/Align/6, W4/Prob/6, W4/Attract/6 and .../199
+    /// W5       a generation of competing flocks, 2-D
+    /// models   each model beside a plain hand-written loop, where there is one
+    ///
+    /// Seeds are fixed. Times are medians after a warm-up, of runs interleaved over threads and precisions.
+    #[command(verbatim_doc_comment)]
+    Bench(BenchOptions),
 }
 
 /// Runs a command; the answer is its exit code.
@@ -40,5 +58,7 @@ pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
     match &line.command {
         Command::Step(options) => step(options, out).map(|()| 0),
         Command::Conformance(options) => conformance(options, out).map(|good| u8::from(!good)),
+        Command::Models(options) => models(options, out).map(|()| 0),
+        Command::Bench(options) => bench(options, out).map(|()| 0),
     }
 }

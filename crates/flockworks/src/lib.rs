@@ -1,11 +1,15 @@
 //! `flockworks`: the command line. It reads files, hands them to the rooms below, and prints what comes back; the logic is theirs.
 
+pub mod bench;
 pub mod case;
 pub mod command;
 pub mod conformance;
 pub mod fault;
 pub mod json;
+pub mod models;
+pub mod plain;
 pub mod step;
 pub mod table;
+pub mod workloads;
 
 pub use fault::Fault;

@@ -347,6 +347,8 @@ pub struct Start<'a, R, const D: usize> {
 
 /// A law as the engine sees it.
 pub trait Model<R: Scalar, const D: usize>: Send + Sync + 'static {
+    /// Whether the law is worth compiling for wide vector instructions: its own loops run over many percepts.
+    const WIDE: bool = false;
     /// The named sets of its selection stage, at most 32, with their default perception functions.
     fn sets(&self) -> Vec<NamedSet<R, D>>;
     /// Fills in what an initial state leaves out.

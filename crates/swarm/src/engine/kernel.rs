@@ -312,7 +312,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         scratch.body.extend(self.body_columns.iter().map(|&c| now.state[c][row]));
     }
     /// Obstacles and walls near a place.
-    #[inline]
+    #[inline(never)]
     fn perceive_obstacles(&self, view: &View<'_, R, D>, place: Vector<R, D>, to: &mut Vec<NearObstacle<R, D>>) {
         to.clear();
         let Some(reach) = self.obstacle_reach else { return };
@@ -353,15 +353,16 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             group: (self.first, self.count),
         }
     }
-    /// Fills the scratch with the detected members of one agent, with their named sets. Returns whether velocities and columns stand
-    /// in `scratch.sensed` rather than in the state.
-    #[inline(always)]
-    fn perceive<L: Lanes<R>>(
+    /// Fills the scratch with the detected members of one agent. Returns whether velocities and columns stand in
+    /// `scratch.sensed` rather than in the state.
+    ///
+    /// The same code for all laws: it is compiled once per precision and dimension.
+    #[inline(never)]
+    fn detect(
         &self,
         view: &View<'_, R, D>,
         row: usize,
         scratch: &mut Scratch<R, D>,
-        quick: impl FnOnce(Vector<R, D>, &[&[R]; D], &[R], &mut [u32]) -> bool,
         memory: Option<&mut Memory<R>>,
     ) -> bool {
         let indirect = match &self.sensing {
@@ -379,7 +380,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                         reach => reach,
                     },
                 };
-                self.candidates::<L>(view, row, reach, scratch);
+                self.candidates(view, row, reach, scratch);
                 if ideal.is_perfect() { false } else { self.limit(ideal, view, row, scratch) }
             }
             Sensing::Scanner(robot) => {
@@ -390,17 +391,18 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         let count = scratch.row.len();
         scratch.sets.clear();
         scratch.sets.resize(count, 0);
-        let heading = view.now.velocity(row).unit();
-        let offset = core::array::from_fn(|a| scratch.offset[a].as_slice());
-        if self.own_sets && quick(heading, &offset, &scratch.squared, &mut scratch.sets) {
-            return indirect;
-        }
+        indirect
+    }
+    /// Puts the detected members into the named sets.
+    #[inline(never)]
+    fn select(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>, indirect: bool) {
+        let count = scratch.row.len();
         let candidates = Candidates {
-            offset,
+            offset: core::array::from_fn(|a| scratch.offset[a].as_slice()),
             squared: &scratch.squared,
             row: &scratch.row,
             others: if indirect { &scratch.sensed } else { view.others },
-            heading,
+            heading: view.now.velocity(row).unit(),
             member: (view.now.id[row] - self.first) as usize,
         };
         for (s, set) in self.sets.iter().enumerate() {
@@ -411,19 +413,18 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 *bits |= u32::from(chosen) << s;
             }
         }
-        indirect
     }
     /// Others that can matter, in canonical order.
     #[inline(always)]
-    fn candidates<L: Lanes<R>>(&self, view: &View<'_, R, D>, row: usize, reach: Reach<R>, scratch: &mut Scratch<R, D>) {
+    fn candidates(&self, view: &View<'_, R, D>, row: usize, reach: Reach<R>, scratch: &mut Scratch<R, D>) {
         scratch.clear();
         let place = view.now.position(row);
         match reach {
-            Reach::Within(radius) => self.within::<L>(view, row, place, radius, scratch),
-            Reach::All => self.pairs::<L>(view, row, place, R::INFINITY, scratch),
+            Reach::Within(radius) => self.within(view, row, place, radius, scratch),
+            Reach::All => pairs(view, row, place, R::INFINITY, scratch),
             Reach::Nearest(count) => {
                 let Index::Sorted(grid) = view.index else {
-                    return self.pairs::<L>(view, row, place, R::INFINITY, scratch);
+                    return pairs(view, row, place, R::INFINITY, scratch);
                 };
                 // rings of growing radius: whoever is among the nearest lies inside the first that holds enough
                 let mut radius = grid.spacing();
@@ -443,13 +444,11 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                     radius *= R::of(if scratch.row.is_empty() { 2.0 } else { 1.4 });
                 }
                 scratch.clear();
-                self.pairs::<L>(view, row, place, R::INFINITY, scratch);
+                pairs(view, row, place, R::INFINITY, scratch);
             }
         }
-        let _ = place;
     }
-    #[inline(always)]
-    fn within<L: Lanes<R>>(
+    fn within(
         &self,
         view: &View<'_, R, D>,
         row: usize,
@@ -468,50 +467,11 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             Index::Live(grid) => grid.within(place, radius, &mut visit),
         };
         if !found {
-            self.pairs::<L>(view, row, place, radius, scratch);
-        }
-    }
-    /// All pairs: several others at a time, each tested by itself.
-    #[inline(always)]
-    fn pairs<L: Lanes<R>>(
-        &self,
-        view: &View<'_, R, D>,
-        row: usize,
-        place: Vector<R, D>,
-        radius: R,
-        scratch: &mut Scratch<R, D>,
-    ) {
-        let n = view.others.len();
-        let limit = L::splat(radius * radius);
-        let me: [L; D] = splat(place);
-        scratch.row.reserve(n);
-        let mut first = 0;
-        while first < n {
-            let offset = lane_offsets::<R, L, D>(view, first, &me);
-            let squared = crate::motion::dot(&offset, &offset);
-            let mut bits = squared.less(limit).bits() & mask_of(n - first);
-            if row >= first && row < first + L::WIDTH {
-                bits &= !(1 << (row - first));
-            }
-            if bits != 0 {
-                let mut squares = [R::ZERO; WIDEST];
-                squared.store(&mut squares);
-                let mut parts = [[R::ZERO; WIDEST]; D];
-                for a in 0..D {
-                    offset[a].store(&mut parts[a]);
-                }
-                while bits != 0 {
-                    let k = bits.trailing_zeros() as usize;
-                    bits &= bits - 1;
-                    if !view.dead(view.others, first + k) {
-                        scratch.push((first + k) as u32, Vector(core::array::from_fn(|a| parts[a][k])), squares[k]);
-                    }
-                }
-            }
-            first += L::WIDTH;
+            pairs(view, row, place, radius, scratch);
         }
     }
     /// The limits and errors of ideal sensing. Returns whether others' velocities were changed too.
+    #[inline(never)]
     fn limit(&self, ideal: &Ideal<R>, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> bool {
         let id = view.now.id[row];
         let draws = DrawStream::new(view.seed, Purpose::Sensing, view.step, id);
@@ -611,7 +571,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         memory: Option<&mut Memory<R>>,
     ) {
         let place = view.now.position(row);
-        self.candidates::<R>(view, row, Reach::Within(robot.scanner_range() + robot.widest_body), scratch);
+        self.candidates(view, row, Reach::Within(robot.scanner_range() + robot.widest_body), scratch);
         scratch.robot.bodies.clear();
         for k in 0..scratch.row.len() {
             let other = scratch.row[k] as usize;
@@ -657,6 +617,62 @@ fn turned<R: Scalar, const D: usize>(motion: Motion<R, D>, angle: R, draws: &Dra
     Motion { velocity: turn(motion.velocity), displacement: turn(motion.displacement) }
 }
 
+/// All pairs: several others at a time, each tested by itself.
+struct Pairs<'a, 'b, R, const D: usize> {
+    view: &'a View<'b, R, D>,
+    row: usize,
+    place: Vector<R, D>,
+    radius: R,
+    scratch: &'a mut Scratch<R, D>,
+}
+
+fn pairs<R: Scalar, const D: usize>(
+    view: &View<'_, R, D>,
+    row: usize,
+    place: Vector<R, D>,
+    radius: R,
+    scratch: &mut Scratch<R, D>,
+) {
+    with_lanes(level(), Pairs { view, row, place, radius, scratch });
+}
+
+impl<R: Scalar, const D: usize> Task<R> for Pairs<'_, '_, R, D> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) {
+        let Self { view, row, place, radius, scratch } = self;
+        let n = view.others.len();
+        let limit = L::splat(radius * radius);
+        let me: [L; D] = splat(place);
+        scratch.row.reserve(n);
+        let mut first = 0;
+        while first < n {
+            let offset = lane_offsets::<R, L, D>(view, first, &me);
+            let squared = crate::motion::dot(&offset, &offset);
+            let mut bits = squared.less(limit).bits() & mask_of(n - first);
+            if row >= first && row < first + L::WIDTH {
+                bits &= !(1 << (row - first));
+            }
+            if bits != 0 {
+                let mut squares = [R::ZERO; WIDEST];
+                squared.store(&mut squares);
+                let mut parts = [[R::ZERO; WIDEST]; D];
+                for a in 0..D {
+                    offset[a].store(&mut parts[a]);
+                }
+                while bits != 0 {
+                    let k = bits.trailing_zeros() as usize;
+                    bits &= bits - 1;
+                    if !view.dead(view.others, first + k) {
+                        scratch.push((first + k) as u32, Vector(core::array::from_fn(|a| parts[a][k])), squares[k]);
+                    }
+                }
+            }
+            first += L::WIDTH;
+        }
+    }
+}
+
 /// The first `count` lanes as bits.
 #[inline(always)]
 fn mask_of(count: usize) -> u32 {
@@ -696,7 +712,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
     }
 
     #[inline(always)]
-    fn decide<L: Lanes<R>>(
+    fn decide(
         &self,
         view: &View<'_, R, D>,
         row: usize,
@@ -704,10 +720,14 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         memory: Option<&mut Memory<R>>,
     ) -> Motion<R, D> {
         let stages = &self.stages;
-        let quick = |heading: Vector<R, D>, offset: &[&[R]; D], squared: &[R], sets: &mut [u32]| {
-            self.law.select(heading, offset, squared, sets)
+        let indirect = stages.detect(view, row, scratch, memory);
+        let selected = stages.own_sets && {
+            let offset = core::array::from_fn(|a| scratch.offset[a].as_slice());
+            self.law.select(view.now.velocity(row).unit(), &offset, &scratch.squared, &mut scratch.sets)
         };
-        let indirect = stages.perceive::<L>(view, row, scratch, quick, memory);
+        if !selected {
+            stages.select(view, row, scratch, indirect);
+        }
         let position = view.now.position(row);
         let mut obstacles = core::mem::take(&mut scratch.obstacles);
         if let (Sensing::Scanner(_), Some(reach)) = (&stages.sensing, stages.obstacle_reach) {
@@ -741,7 +761,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
     }
 
     #[inline(always)]
-    fn sweep_lanes<L: Lanes<R>>(
+    fn sweep_rows(
         &self,
         view: &View<'_, R, D>,
         rows: Range<usize>,
@@ -764,7 +784,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             } else {
                 None
             };
-            let wanted = self.decide::<L>(view, row, scratch, memory);
+            let wanted = self.decide(view, row, scratch, memory);
             let mut body = core::mem::take(&mut scratch.body);
             let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &mut body);
             // SAFETY: as above.
@@ -790,7 +810,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Task<R> for SweepListed<'_, '_, 
     type Output = ();
     #[inline(always)]
     fn run<L: Lanes<R>>(self) {
-        self.kernel.sweep_lanes::<L>(self.view, self.rows, self.out, self.scratch);
+        self.kernel.sweep_rows(self.view, self.rows, self.out, self.scratch);
     }
 }
 
@@ -805,7 +825,11 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         self.law.complete(start);
     }
     fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>) {
-        with_lanes(level(), SweepListed { kernel: self, view, rows, out, scratch });
+        if M::WIDE {
+            with_lanes(level(), SweepListed { kernel: self, view, rows, out, scratch });
+        } else {
+            self.sweep_rows(view, rows, out, scratch);
+        }
     }
     fn one(
         &self,
@@ -814,10 +838,11 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
     ) -> Motion<R, D> {
-        self.decide::<R>(view, row, scratch, memory)
+        self.decide(view, row, scratch, memory)
     }
     fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
-        self.stages.perceive::<R>(view, row, scratch, |_, _, _, _| false, None);
+        let indirect = self.stages.detect(view, row, scratch, None);
+        self.stages.select(view, row, scratch, indirect);
         scratch.sets.iter().filter(|&&bits| bits != 0).count()
     }
 }

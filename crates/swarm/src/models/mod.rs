@@ -105,19 +105,23 @@ macro_rules! models {
             parameters: <$file::$name<f64> as Parameters>::descriptors,
             columns: <$file::$name<f64> as Law<f64>>::columns,
         },)*];
-        models!(@catalogue 1 $($way $file::$name in [$($d),+];)*);
-        models!(@catalogue 2 $($way $file::$name in [$($d),+];)*);
-        models!(@catalogue 3 $($way $file::$name in [$($d),+];)*);
+        models!(@catalogue f32 1 $($way $file::$name in [$($d),+];)*);
+        models!(@catalogue f64 1 $($way $file::$name in [$($d),+];)*);
+        models!(@catalogue f32 2 $($way $file::$name in [$($d),+];)*);
+        models!(@catalogue f64 2 $($way $file::$name in [$($d),+];)*);
+        models!(@catalogue f32 3 $($way $file::$name in [$($d),+];)*);
+        models!(@catalogue f64 3 $($way $file::$name in [$($d),+];)*);
     };
-    (@catalogue $dimension:tt $($way:ident $file:ident::$name:ident in [$($d:tt),+];)*) => {
-        impl<R: Scalar> Catalogue<R, $dimension> for Models {
+    // not generic over the precision, so that all models are compiled here and nowhere else
+    (@catalogue $real:tt $dimension:tt $($way:ident $file:ident::$name:ident in [$($d:tt),+];)*) => {
+        impl Catalogue<$real, $dimension> for Models {
             fn prepare(
                 id: &str,
                 values: &Values,
                 members: usize,
-            ) -> Option<Result<Prepared<R, $dimension>, ParameterError>> {
+            ) -> Option<Result<Prepared<$real, $dimension>, ParameterError>> {
                 $(if id == stringify!($file) {
-                    return models!(@arm $dimension [$($d),+] $way $file::$name (values) (members));
+                    return models!(@arm $dimension [$($d),+] $real $way $file::$name (values) (members));
                 })*
                 let _ = (values, members);
                 None
@@ -135,8 +139,8 @@ macro_rules! models {
     (@arm 3 [2, 3] $($rest:tt)*) => { models!(@call 3 $($rest)*) };
     (@arm 3 [1, 2, 3] $($rest:tt)*) => { models!(@call 3 $($rest)*) };
     (@arm $d:tt [$($other:tt),+] $($rest:tt)*) => { None };
-    (@call $d:tt $way:ident $file:ident::$name:ident ($values:ident) ($members:ident)) => {
-        Some($way::<R, $d, $file::$name<R>>($values, $members))
+    (@call $d:tt $real:tt $way:ident $file:ident::$name:ident ($values:ident) ($members:ident)) => {
+        Some($way::<$real, $d, $file::$name<$real>>($values, $members))
     };
 }
 

@@ -1,0 +1,355 @@
+//! `flockworks models`: what the models say of themselves.
+
+use crate::case::model;
+use crate::fault::Fault;
+use crate::table::Table;
+use clap::{Args, ValueEnum};
+use serde_json::{Value as Json, json};
+use space::{Column, ColumnKind};
+use std::io::Write;
+use swarm::card::{Avoidance, Composition, Information, Taxonomy};
+use swarm::models::{Entry, LIST};
+use swarm::parameters::{Descriptor, Range, Value};
+
+/// Widest line of running text.
+const WIDTH: usize = 100;
+
+/// Form of the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For reading in a terminal.
+    Text,
+    /// JSON.
+    Json,
+    /// Markdown.
+    Md,
+}
+
+/// Options of `models`.
+#[derive(Args, Debug)]
+pub struct ModelsOptions {
+    /// A model's id, for all that its code says of it; without it, a table of all models.
+    pub id: Option<String>,
+    /// Form of the output.
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
+}
+
+/// Prints the table of models, or one model's card.
+///
+/// # Errors
+/// An unknown id, or a reader that went away.
+pub fn models(options: &ModelsOptions, out: &mut dyn Write) -> Result<(), Fault> {
+    let text = match &options.id {
+        Some(id) => {
+            let entry = model(id)?;
+            match options.format {
+                Format::Text => card_text(entry),
+                Format::Md => card_markdown(entry),
+                Format::Json => pretty(&card_json(entry)),
+            }
+        }
+        None => match options.format {
+            Format::Text => {
+                let plural = if LIST.len() == 1 { "model" } else { "models" };
+                format!("{}\n{} {plural}; `flockworks models ID` shows one.\n", list().text(), LIST.len())
+            }
+            Format::Md => list().markdown(),
+            Format::Json => pretty(&Json::from(LIST.iter().map(brief_json).collect::<Vec<_>>())),
+        },
+    };
+    out.write_all(text.as_bytes())?;
+    Ok(())
+}
+
+fn pretty(value: &Json) -> String {
+    format!("{value:#}\n")
+}
+
+fn list() -> Table {
+    let mut table = Table::new(&["id", "title", "dimensions", "what members do"]);
+    for entry in LIST {
+        let card = entry.card;
+        table.row(vec![card.id.into(), card.title.into(), dimensions(entry), card.about.into()]);
+    }
+    table
+}
+
+fn dimensions(entry: &Entry) -> String {
+    let numbers: Vec<String> = entry.dimensions.iter().map(ToString::to_string).collect();
+    numbers.join(", ")
+}
+
+fn brief_json(entry: &Entry) -> Json {
+    let card = entry.card;
+    json!({ "id": card.id, "title": card.title, "dimensions": entry.dimensions, "about": card.about })
+}
+
+/// The rows of the stage table that the model has.
+fn stages(entry: &Entry) -> Vec<(&'static str, &'static str)> {
+    let stages = &entry.card.stages;
+    let mut rows = vec![
+        ("sensing", stages.sensing),
+        ("detection", stages.detection),
+        ("selection", stages.selection),
+        ("motion", stages.motion),
+        ("physics", stages.physics),
+        ("obstacles", stages.obstacles),
+    ];
+    rows.retain(|(_, text)| !text.is_empty());
+    rows
+}
+
+/// What a parameter takes, with the range of its numbers.
+fn takes(parameter: &Descriptor) -> String {
+    match (parameter.takes.as_str(), parameter.range) {
+        ("a number", range) => range.to_string(),
+        (takes, Range::Any) => takes.to_owned(),
+        (takes, range) => format!("{takes}, {range}"),
+    }
+}
+
+fn json_of(value: &Value) -> Json {
+    match value {
+        Value::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => Json::from(*number as i64),
+        Value::Number(number) => Json::from(*number),
+        Value::Truth(truth) => Json::from(*truth),
+        Value::Text(text) => Json::from(text.as_str()),
+        Value::List(list) => list.iter().map(json_of).collect(),
+    }
+}
+
+fn kind(column: &Column) -> String {
+    match column.kind {
+        ColumnKind::Quantity => "quantity".into(),
+        ColumnKind::Count => "count".into(),
+        ColumnKind::Label(words) => format!("one of {}", words.join(", ")),
+    }
+}
+
+fn information(information: Information) -> &'static str {
+    match information {
+        Information::Global => "global",
+        Information::Local => "local",
+        Information::Inferred => "inferred",
+        Information::Constant => "constant",
+        Information::None => "none",
+    }
+}
+
+fn yes(truth: bool) -> &'static str {
+    if truth { "yes" } else { "no" }
+}
+
+fn taxonomy(taxonomy: &Taxonomy) -> Vec<(&'static str, String)> {
+    let [position, velocity, orientation] = taxonomy.uses;
+    let [of_position, of_velocity, of_orientation] = taxonomy.information.map(information);
+    let mut validated = Vec::new();
+    for (letter, word) in [('M', "mathematics"), ('S', "simulation"), ('P', "physical robots")] {
+        if taxonomy.validation.contains(letter) {
+            validated.push(word);
+        }
+    }
+    let composition = match taxonomy.composition {
+        Composition::Homogeneous => "homogeneous",
+        Composition::Heterogeneous => "heterogeneous",
+    };
+    let avoidance = match taxonomy.avoidance {
+        Avoidance::None => "none",
+        Avoidance::Member => "members",
+        Avoidance::Environment => "environment",
+        Avoidance::All => "members and environment",
+    };
+    vec![
+        ("composition", composition.into()),
+        ("mobility", if taxonomy.idealized { "idealised" } else { "constrained" }.into()),
+        ("time", if taxonomy.discrete { "discrete" } else { "continuous" }.into()),
+        ("avoids collisions with", avoidance.into()),
+        ("identification", yes(taxonomy.identification).into()),
+        ("uses position", format!("{}, {of_position}", yes(position))),
+        ("uses velocity", format!("{}, {of_velocity}", yes(velocity))),
+        ("uses orientation", format!("{}, {of_orientation}", yes(orientation))),
+        ("validated by", if validated.is_empty() { "-".into() } else { validated.join(", ") }),
+        ("synchronous", yes(taxonomy.synchronous).into()),
+        ("environment", taxonomy.environment.into()),
+    ]
+}
+
+fn parameters_table(parameters: &[Descriptor]) -> Table {
+    let mut table = Table::new(&["name", "alias", "symbol", "unit", "range", "default", "origin", "what it is"]);
+    for p in parameters {
+        table.row(vec![
+            p.name.into(),
+            p.alias.unwrap_or("-").into(),
+            p.symbol.into(),
+            p.unit.into(),
+            takes(p),
+            p.default.to_string(),
+            p.origin.word().into(),
+            p.about.trim().into(),
+        ]);
+    }
+    table
+}
+
+fn columns_table(columns: &[Column]) -> Table {
+    let mut table = Table::new(&["name", "unit", "kind", "what it is"]);
+    for column in columns {
+        table.row(vec![column.name.into(), column.unit.into(), kind(column), column.about.trim().into()]);
+    }
+    table
+}
+
+/// Text broken into lines, every line indented.
+fn wrapped(text: &str, indent: usize) -> String {
+    let space = " ".repeat(indent);
+    let mut out = String::new();
+    for paragraph in text.lines() {
+        let mut line = String::new();
+        for word in paragraph.split_whitespace() {
+            if !line.is_empty() && indent + line.chars().count() + 1 + word.chars().count() > WIDTH {
+                out += &format!("{space}{line}\n");
+                line.clear();
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line += word;
+        }
+        out += &format!("{space}{line}\n");
+    }
+    out
+}
+
+fn indented(text: &str) -> String {
+    text.lines().map(|line| format!("  {}\n", line.trim_end())).collect()
+}
+
+fn rows(rows: &[(&str, String)]) -> String {
+    let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    let row = |(name, text): &(&str, String)| {
+        let body = wrapped(text, width + 4);
+        format!("  {name:<width$}  {}", body.trim_start())
+    };
+    rows.iter().map(row).collect()
+}
+
+fn card_text(entry: &Entry) -> String {
+    let card = entry.card;
+    let mut text = format!("{}: {}\n\n{}\n", card.id, card.title, wrapped(card.about, 0));
+    let mut part = |title: &str, body: String| {
+        if !body.is_empty() {
+            text += &format!("{title}\n{body}\n");
+        }
+    };
+    part("Dimensions", format!("  {}\n", dimensions(entry)));
+    part("Reference", wrapped(card.reference, 2));
+    part("Equations", indented(card.equations));
+    let stage = |(name, text): (&'static str, &str)| (name, text.to_owned());
+    part("Stages", rows(&stages(entry).into_iter().map(stage).collect::<Vec<_>>()));
+    let mut body = String::new();
+    for p in (entry.parameters)() {
+        let alias = p.alias.map_or_else(String::new, |alias| format!(" (or {alias})"));
+        let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
+        let symbol = if p.symbol == "-" { String::new() } else { format!(", symbol {}", p.symbol) };
+        body += &format!("  {}{alias} = {}{unit}{symbol}; {}\n", p.name, p.default, p.origin.word());
+        body += &wrapped(&format!("{} {}.", p.about.trim(), capital(&takes(&p))), 6);
+    }
+    part("Parameters", if body.is_empty() { "  none\n".into() } else { body });
+    let columns = columns_table((entry.columns)());
+    part("State columns", if columns.is_empty() { String::new() } else { indented(&columns.text()) });
+    let random: Vec<(&str, String)> = card.random.iter().map(|q| (q.name, q.about.to_owned())).collect();
+    part("Random quantities", if random.is_empty() { "  none\n".into() } else { rows(&random) });
+    part("Edge rules", wrapped(card.edge, 2));
+    part("Departures from the publication", wrapped(card.departures, 2));
+    part("Classification", rows(&taxonomy(&card.taxonomy)));
+    text.truncate(text.trim_end().len());
+    text.push('\n');
+    text
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn card_markdown(entry: &Entry) -> String {
+    let card = entry.card;
+    let mut text = format!("# `{}`: {}\n\n{}\n\n", card.id, card.title, card.about);
+    let mut part = |title: &str, body: &str| {
+        if !body.is_empty() {
+            text += &format!("## {title}\n\n{}\n\n", body.trim_end());
+        }
+    };
+    part("Dimensions", &dimensions(entry));
+    part("Reference", card.reference);
+    part("Equations", &format!("```\n{}\n```", card.equations));
+    let mut table = Table::new(&["stage", "choice"]);
+    for (name, text) in stages(entry) {
+        table.row(vec![name.into(), text.into()]);
+    }
+    part("Stages", &table.markdown());
+    let parameters = parameters_table(&(entry.parameters)());
+    part("Parameters", &if parameters.is_empty() { "None.".into() } else { parameters.markdown() });
+    let columns = columns_table((entry.columns)());
+    part("State columns", &if columns.is_empty() { String::new() } else { columns.markdown() });
+    let mut table = Table::new(&["name", "distribution"]);
+    for quantity in card.random {
+        table.row(vec![format!("`{}`", quantity.name), quantity.about.into()]);
+    }
+    part("Random quantities", &if table.is_empty() { "None.".into() } else { table.markdown() });
+    part("Edge rules", card.edge);
+    part("Departures from the publication", card.departures);
+    let mut table = Table::new(&["class", "this model"]);
+    for (name, value) in taxonomy(&card.taxonomy) {
+        table.row(vec![name.into(), value]);
+    }
+    part("Classification", &table.markdown());
+    text.truncate(text.trim_end().len());
+    text.push('\n');
+    text
+}
+
+fn card_json(entry: &Entry) -> Json {
+    let card = entry.card;
+    let parameter = |p: Descriptor| {
+        let (low, high) = match p.range {
+            Range::Any => (None, None),
+            Range::NonNegative | Range::Positive => (Some(0.0), None),
+            Range::Within(low, high) => (Some(low), Some(high)),
+        };
+        json!({
+            "name": p.name, "alias": p.alias, "symbol": p.symbol, "unit": p.unit, "takes": p.takes,
+            "range": p.range.to_string(), "low": low, "high": high, "low_included": p.range != Range::Positive,
+            "default": json_of(&p.default), "origin": p.origin.word(), "about": p.about.trim(),
+        })
+    };
+    let column = |column: &Column| {
+        let words = if let ColumnKind::Label(words) = column.kind { Some(words) } else { None };
+        let kind = match column.kind {
+            ColumnKind::Quantity => "quantity",
+            ColumnKind::Count => "count",
+            ColumnKind::Label(_) => "label",
+        };
+        json!({ "name": column.name, "unit": column.unit, "kind": kind, "labels": words, "about": column.about.trim() })
+    };
+    let stages: serde_json::Map<String, Json> =
+        stages(entry).into_iter().map(|(name, text)| (name.to_owned(), Json::from(text))).collect();
+    let taxonomy: serde_json::Map<String, Json> =
+        taxonomy(&card.taxonomy).into_iter().map(|(name, text)| (name.replace(' ', "_"), Json::from(text))).collect();
+    json!({
+        "id": card.id,
+        "title": card.title,
+        "about": card.about,
+        "dimensions": entry.dimensions,
+        "reference": card.reference,
+        "equations": card.equations.lines().collect::<Vec<_>>(),
+        "stages": stages,
+        "parameters": (entry.parameters)().into_iter().map(parameter).collect::<Vec<_>>(),
+        "columns": (entry.columns)().iter().map(column).collect::<Vec<_>>(),
+        "random": card.random.iter().map(|q| json!({ "name": q.name, "about": q.about })).collect::<Vec<_>>(),
+        "edge": card.edge,
+        "departures": card.departures,
+        "taxonomy": taxonomy,
+    })
+}
