@@ -521,6 +521,7 @@ mod tests {
     use super::*;
 
     choice! {
+        #[allow(unreachable_pub, reason = "the macro declares public items")]
         /// A choice.
         pub enum Kind {
             /// First.
@@ -530,6 +531,7 @@ mod tests {
         }
     }
     parameters! {
+        #[allow(unreachable_pub, reason = "the macro declares public items")]
         /// Parameters of the test.
         pub struct Example {
             /// Reach.

@@ -130,9 +130,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
                     touched |= after < reach * reach && after <= before;
                 }
             };
-            let searched = cells.as_ref().is_some_and(|cells| {
-                cells.within(to, widest + widest, |other, offset, _| test(other, offset))
-            });
+            let searched = cells
+                .as_ref()
+                .is_some_and(|cells| cells.within(to, widest + widest, |other, offset, _| test(other, offset)));
             if !searched {
                 for other in 0..agents {
                     test(other as u32, self.space.offset(to, places.position(other)));
@@ -180,9 +180,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
                     sum += away * ((reach - distance) * R::HALF);
                 }
             };
-            let searched = cells.as_ref().is_some_and(|cells| {
-                cells.within(place, widest + widest, |other, offset, _| test(other, offset))
-            });
+            let searched = cells
+                .as_ref()
+                .is_some_and(|cells| cells.within(place, widest + widest, |other, offset, _| test(other, offset)));
             if !searched {
                 for other in 0..agents {
                     test(other as u32, self.space.offset(place, self.next.position(other)));

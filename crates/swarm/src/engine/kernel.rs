@@ -11,11 +11,11 @@ use crate::selection::{self, Candidates, NamedSet, Reach};
 use crate::sensing::Ideal;
 use crate::sensing::robot::{Memory, Robot, RobotScratch};
 use core::ops::Range;
+use space::grid::Segment;
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
 use space::obstacles::Obstacles;
 use space::parallel::Shared;
 use space::random::{Purpose, Stream as DrawStream, uniforms};
-use space::grid::Segment;
 use space::shape::Shape;
 use space::{Columns, Edge, Grid, LiveGrid, PADDING, Real, Space, Vector};
 
@@ -281,8 +281,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
         let n = &self.noise;
         if n.execution_direction > R::ZERO || n.execution_speed > R::ZERO {
-            let draws =
-                DrawStream::new(view.seed, Purpose::Execution, view.step, view.now.id[row]);
+            let draws = DrawStream::new(view.seed, Purpose::Execution, view.step, view.now.id[row]);
             motion = turned(motion, n.execution_direction * R::of(draws.normal(0)), &draws, 4);
             let faster = (R::ONE + n.execution_speed * R::of(draws.normal(2))).most(R::ZERO);
             motion = Motion { velocity: motion.velocity * faster, displacement: motion.displacement * faster };
@@ -294,8 +293,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     #[inline(always)]
     fn wanted(&self, view: &View<'_, R, D>, row: usize, motion: Motion<R, D>) -> Motion<R, D> {
         if self.noise.computation > R::ZERO {
-            let draws =
-                DrawStream::new(view.seed, Purpose::Computation, view.step, view.now.id[row]);
+            let draws = DrawStream::new(view.seed, Purpose::Computation, view.step, view.now.id[row]);
             return turned(motion, self.noise.computation * R::of(draws.normal(0)), &draws, 2);
         }
         motion
@@ -448,14 +446,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             }
         }
     }
-    fn within(
-        &self,
-        view: &View<'_, R, D>,
-        row: usize,
-        place: Vector<R, D>,
-        radius: R,
-        scratch: &mut Scratch<R, D>,
-    ) {
+    fn within(&self, view: &View<'_, R, D>, row: usize, place: Vector<R, D>, radius: R, scratch: &mut Scratch<R, D>) {
         let mut visit = |other: u32, offset: Vector<R, D>, squared: R| {
             if other as usize != row && !view.dead(view.others, other as usize) {
                 scratch.push(other, offset, squared);

@@ -46,7 +46,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
             let worker_scratch = space::parallel::Shared::new(&mut scratch);
             let rows = self.now.len();
             let threads = self.workers.threads();
-            let tasks = if threads == 1 { 1 } else { (rows / 64).clamp(1, threads * 8) };
+            let tasks = if threads == 1 { 1 } else { (rows / 16).clamp(1, threads * 8) };
             self.workers.each(tasks, |worker, task| {
                 // SAFETY: a worker runs one task at a time.
                 let scratch = unsafe { &mut worker_scratch.part(worker..worker + 1)[0] };

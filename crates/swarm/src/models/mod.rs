@@ -10,6 +10,8 @@ use crate::selection::NamedSet;
 use space::Column;
 
 #[cfg(test)]
+mod laws;
+#[cfg(test)]
 pub(crate) mod oracle;
 
 /// What a model says of itself once its parameters are known: what the engine needs to build a group.
