@@ -364,12 +364,17 @@ pub trait Model<R: Scalar, const D: usize>: Send + Sync + 'static {
 
 /// One agent per lane, deciding.
 #[derive(Clone, Copy)]
-pub struct MeLanes<L, const D: usize> {
+pub struct MeLanes<'a, L, const D: usize> {
     /// Velocities.
     pub velocity: [L; D],
     /// Unit headings; zero at rest.
     pub heading: [L; D],
+    /// Own values of the model's declared columns, in their order; at most the first [`MOST_OWN`].
+    pub own: &'a [L],
 }
+
+/// So many declared columns of the deciding agents are at hand in lanes.
+pub const MOST_OWN: usize = 4;
 
 /// The neighbour that all lanes look at.
 #[derive(Clone, Copy)]
@@ -447,7 +452,7 @@ impl<R: Scalar, const D: usize, T: Stream<R, D>> Model<R, D> for Summed<T> {
     }
     #[inline]
     fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D> {
-        let lanes = MeLanes { velocity: me.velocity.0, heading: me.heading.0 };
+        let lanes = MeLanes { velocity: me.velocity.0, heading: me.heading.0, own: &*me.own };
         let mut sums = T::Sums::<R>::zero();
         for k in 0..seen.len() {
             let bits = seen.sets[k];

@@ -2,7 +2,7 @@
 
 use crate::motion::{
     Around, Draws, Injected, LaneSums, Me, MeLanes, Model, Motion, NearItem, NearObstacle, Other, Percepts, Start,
-    Stream, Summed, WIDEST, splat,
+    Stream, Summed, WIDEST, MOST_OWN, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::Mobility;
@@ -860,7 +860,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
     fn meet<L: Lanes<R>, const IMAGES: bool>(
         &self,
         view: &View<'_, R, D>,
-        block: &Block<L, D>,
+        block: &Block<'_, L, D>,
         rows: Range<usize>,
         shift: Vector<R, D>,
         sums: &mut M::Sums<L>,
@@ -939,7 +939,11 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             let velocity: [L; D] = core::array::from_fn(|a| L::load(&view.now.velocity[a][row..]));
             let heading =
                 if M::HEADINGS { core::array::from_fn(|a| L::load(&view.heading[a][row..])) } else { velocity };
-            let block = Block { first: row, place, me: MeLanes { velocity, heading } };
+            let mut own = [L::splat(R::ZERO); MOST_OWN];
+            for (own, &column) in own.iter_mut().zip(&self.listed.stages.columns) {
+                *own = L::load(&view.now.state[column][row..]);
+            }
+            let block = Block { first: row, place, me: MeLanes { velocity, heading, own: &own } };
             let mut sums = M::Sums::<L>::zero();
             if let Index::Sorted(grid) = view.index {
                 let mut segments = core::mem::take(&mut scratch.segments);
@@ -1095,10 +1099,10 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
 }
 
 /// A block of consecutive agents, one per lane.
-struct Block<L, const D: usize> {
+struct Block<'a, L, const D: usize> {
     first: usize,
     place: [L; D],
-    me: MeLanes<L, D>,
+    me: MeLanes<'a, L, D>,
 }
 
 struct SweepStreamed<'a, 'b, M, R, const D: usize> {
@@ -1170,7 +1174,9 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
         let law = kernel.law();
         let place: [L; D] = splat(view.now.position(row));
         let velocity = view.now.velocity(row);
-        let me = MeLanes { velocity: velocity.0, heading: velocity.unit().0 };
+        kernel.listed.stages.load(view.now, row, scratch);
+        let own = core::mem::take(&mut scratch.own);
+        let me = MeLanes { velocity: velocity.0, heading: velocity.unit().0, own: &own };
         let limit = L::splat(law.reach() * law.reach());
         let mut sums = M::Sums::<R>::zero();
         for &(cell, shift) in grid.around(row) {
@@ -1217,6 +1223,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
                 first += L::WIDTH;
             }
         }
+        scratch.own = own;
         kernel.conclude(view, row, &sums, -1.0, scratch)
     }
 }
