@@ -37,7 +37,7 @@ pub struct BenchOptions {
     /// Workloads: W1 W1c W2 W3 W4 W5, a variant such as W4/Align/6, or `models`; W1 W2 W3 W4/Align/6 if none is given.
     pub workloads: Vec<String>,
     /// Numbers of agents, in place of each workload's own.
-    #[arg(long, value_delimiter = ',', value_name = "N,N,..", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_delimiter = ',', value_name = "N,N,..", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     pub agents: Vec<u32>,
     /// Numbers of threads.
     #[arg(long, value_delimiter = ',', value_name = "N,N,..", value_parser = clap::value_parser!(u16).range(1..=1024))]

@@ -17,24 +17,11 @@ use swarm::{World, WorldError, WorldPlan};
 
 const CASE_KEYS: [&str; 9] = ["model", "case", "dim", "space", "params", "aux", "state", "expected", "note"];
 /// Keys of `params` that belong to the world where the model does not declare them.
-const WORLD_KEYS: [&str; 13] = [
-    "walls",
-    "discs",
-    "spheres",
-    "planes",
-    "food",
-    "r_obs",
-    "eat",
-    "meal_e",
-    "meal_h",
-    "emax",
-    "cost",
-    "starve",
-    "obstacles",
-];
+const WORLD_KEYS: [&str; 12] =
+    ["walls", "discs", "spheres", "planes", "food", "r_obs", "eat", "meal_e", "meal_h", "emax", "cost", "starve"];
 /// Keys of `aux` that are no random quantities.
 const AUX_KEYS: [&str; 5] = ["seed", "step", "obstacles", "food", "respawn"];
-/// Models whose own rule is that a move into a wall or disc is not made.
+/// Models whose own rule is that a move into a wall or disc is not made: their contact is left to them.
 const BLOCKED: [&str; 3] = ["boids_plus", "rm_plus", "snn_plus"];
 /// Health cannot be raised above this.
 const HEALTHY: f64 = 100.0;
@@ -58,7 +45,7 @@ pub fn split(file: &Json) -> Result<Cases<'_>, Fault> {
         Some(at) => at.number()?,
         None => 1e-9,
     };
-    if !(tolerance >= 0.0) {
+    if tolerance < 0.0 {
         return wrong(format!("tolerance: expected 0 or more, found {tolerance}"));
     }
     let list = match root.get("cases")? {

@@ -81,7 +81,8 @@ impl<R: Real, const D: usize> Layout<R, D> {
                 return None;
             }
             layout.cells[a] = cells as usize;
-            layout.span[a] = span as usize;
+            // no farther than there are cells, however small the box is beside the reach
+            layout.span[a] = span.min(cells) as usize;
             layout.per_length[a] = if extent[a] > 0.0 { R::of(cells / extent[a]) } else { R::ZERO };
         }
         Some(layout)
@@ -744,6 +745,21 @@ mod tests {
             "two cells around a period: all pairs instead"
         );
         assert!(agrees::<2>(Space::open(), 1, 5.0, 1.0) && agrees::<2>(Space::open(), 2, 0.0, 1.0));
+    }
+
+    #[test]
+    fn a_reach_far_beyond_the_agents_is_searched_in_no_time() {
+        let mut from = Columns::<f64, 2>::new(300, 0);
+        for i in 0..300 {
+            from.position[0][i] = 1e-9 * i as f64;
+        }
+        let mut to = Columns::new(300, 0);
+        let workers = Workers::new(1);
+        let grid = Grid::sort(None, &Space::open(), 1e9, &from, &mut to, &workers).unwrap();
+        let mut met = 0;
+        assert!(grid.within(&to, Vector([0.0, 0.0]), 1e9, |_, _, _| met += 1));
+        assert_eq!(met, 300);
+        assert!(LiveGrid::new(&Space::open(), 1e9, &from).is_some());
     }
 
     #[test]

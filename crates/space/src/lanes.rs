@@ -2,8 +2,8 @@
 //!
 //! A law that sums over its neighbours is written once, generic over [`Lanes`]: instantiated with a
 //! plain number it is the law itself; with vector lanes it serves as many agents at once, one per lane.
-//! Lanes never mix: no operation here crosses from one lane to another, and there is no fused
-//! multiply-add, so each lane computes the same bits that the plain number would.
+//! Lanes never mix: no operation but [`Lanes::pack`], which makes lists, crosses from one lane to another, and there is no
+//! fused multiply-add, so each lane computes the same bits that the plain number would.
 //!
 //! [`with_lanes`] picks the widest instruction level of the processor at run time; the environment variable
 //! `FLOCKWORKS_LANES` (`portable`, `avx2`, `avx512`) may lower it, which tests use to compare levels.
@@ -104,6 +104,38 @@ pub trait Lanes<R>:
     fn add_where(self, mask: Self::Mask, other: Self) -> Self {
         Self::choose(mask, self + other, self)
     }
+    /// Writes the lanes whose bits are set, in their order, to the front of a slice. `WIDTH` places are written; those after
+    /// the chosen lanes hold anything.
+    ///
+    /// # Panics
+    /// If the slice is shorter than `WIDTH`.
+    fn pack(self, bits: u32, to: &mut [R]);
+    /// [`Self::pack`] of the numbers `first`, `first + 1`, ... of the lanes.
+    ///
+    /// # Panics
+    /// If the slice is shorter than `WIDTH`.
+    #[inline(always)]
+    fn pack_numbers(first: u32, bits: u32, to: &mut [u32]) {
+        let to = &mut to[..Self::WIDTH];
+        let mut chosen = 0;
+        for k in 0..Self::WIDTH {
+            // never beyond the lane's own place, so in bounds
+            to[chosen] = first + k as u32;
+            chosen += (bits >> k & 1) as usize;
+        }
+    }
+}
+
+/// The lanes of an array whose bits are set, to the front of a slice of the same length.
+#[inline(always)]
+fn pack_array<R: Copy, const W: usize>(lanes: [R; W], bits: u32, to: &mut [R]) {
+    let to = &mut to[..W];
+    let mut chosen = 0;
+    for k in 0..W {
+        // never beyond the lane's own place, so in bounds
+        to[chosen] = lanes[k];
+        chosen += (bits >> k & 1) as usize;
+    }
 }
 
 macro_rules! plain_number {
@@ -146,6 +178,10 @@ macro_rules! plain_number {
             #[inline(always)]
             fn choose(mask: bool, yes: Self, no: Self) -> Self {
                 if mask { yes } else { no }
+            }
+            #[inline(always)]
+            fn pack(self, _: u32, to: &mut [$t]) {
+                to[0] = self;
             }
         }
     };
@@ -256,6 +292,10 @@ impl<R: Real, const W: usize> Lanes<R> for Wide<R, W> {
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
         Self(core::array::from_fn(|k| if mask.0[k] { yes.0[k] } else { no.0[k] }))
     }
+    #[inline(always)]
+    fn pack(self, bits: u32, to: &mut [R]) {
+        pack_array(self.0, bits, to);
+    }
 }
 
 /// A computation that can run at any instruction level.
@@ -365,7 +405,8 @@ mod x86 {
         ($doc:literal $name:ident $mask_name:ident $number:ident $width:literal $inner:ty, $mask:ty,
          $set1:ident $loadu:ident $storeu:ident $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $min:ident $max:ident,
          less $less:expr, less_equal $less_equal:expr, choose $choose:expr, add_where $add_where:expr,
-         and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, from_bits $from_bits:expr) => {
+         and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, from_bits $from_bits:expr
+         $(, pack $pack:expr, pack_numbers $pack_numbers:expr)?) => {
             #[doc = $doc]
             #[derive(Clone, Copy)]
             pub struct $name($inner);
@@ -474,6 +515,29 @@ mod x86 {
                     // SAFETY: the features are present, see above.
                     Self(unsafe { $add_where(self.0, mask.0, other.0) })
                 }
+                vector!(@pack $number $width $($pack, $pack_numbers)?);
+            }
+        };
+        (@pack $number:ident $width:literal) => {
+            #[inline(always)]
+            fn pack(self, bits: u32, to: &mut [$number]) {
+                let mut lanes = [0.0; $width];
+                self.store(&mut lanes);
+                super::pack_array(lanes, bits, to);
+            }
+        };
+        (@pack $number:ident $width:literal $pack:expr, $pack_numbers:expr) => {
+            #[inline(always)]
+            fn pack(self, bits: u32, to: &mut [$number]) {
+                let to = &mut to[..$width];
+                // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
+                unsafe { $pack(self.0, bits, to.as_mut_ptr()) }
+            }
+            #[inline(always)]
+            fn pack_numbers(first: u32, bits: u32, to: &mut [u32]) {
+                let to = &mut to[..$width];
+                // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
+                unsafe { $pack_numbers(first, bits, to.as_mut_ptr()) }
             }
         };
         (@op $name:ident $trait:ident $method:ident $intrinsic:ident) => {
@@ -491,6 +555,16 @@ mod x86 {
     macro_rules! call {
         // closures do not inherit target features, so the small compositions are macros made into
         // inline functions
+        (write $name:ident($($arg:ident: $t:ty),*), $feature:literal, $body:expr) => {
+            /// # Safety
+            /// The pointer is good for as many numbers as there are lanes.
+            #[inline]
+            #[target_feature(enable = $feature)]
+            unsafe fn $name($($arg: $t),*) {
+                // SAFETY: the caller's promise.
+                unsafe { $body }
+            }
+        };
         ($name:ident($($arg:ident: $t:ty),*) -> $out:ty, $feature:literal, $body:expr) => {
             #[inline]
             #[target_feature(enable = $feature)]
@@ -509,11 +583,18 @@ mod x86 {
     call!(not16(a: __mmask16) -> __mmask16, "avx512f", !a);
     call!(bits16(a: __mmask16) -> u32, "avx512f", u32::from(a));
     call!(from_bits16(bits: u32) -> __mmask16, "avx512f", bits as __mmask16);
+    call!(write pack_f32x16(v: __m512, bits: u32, to: *mut f32), "avx512f",
+        _mm512_storeu_ps(to, _mm512_maskz_compress_ps(bits as __mmask16, v)));
+    call!(write pack_numbers16(first: u32, bits: u32, to: *mut u32), "avx512f", {
+        let each = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+        let all = _mm512_add_epi32(_mm512_set1_epi32(first as i32), each);
+        _mm512_storeu_si512(to.cast(), _mm512_maskz_compress_epi32(bits as __mmask16, all));
+    });
     vector!("Sixteen f32." F32Avx512 MaskF32Avx512 f32 16 __m512, __mmask16,
         _mm512_set1_ps _mm512_loadu_ps _mm512_storeu_ps _mm512_add_ps _mm512_sub_ps _mm512_mul_ps _mm512_div_ps
         _mm512_sqrt_ps _mm512_min_ps _mm512_max_ps,
         less less_f32x16, less_equal less_equal_f32x16, choose choose_f32x16, add_where add_where_f32x16,
-        and and16, or or16, not not16, bits bits16, from_bits from_bits16);
+        and and16, or or16, not not16, bits bits16, from_bits from_bits16, pack pack_f32x16, pack_numbers pack_numbers16);
 
     call!(less_f64x8(a: __m512d, b: __m512d) -> __mmask8, "avx512f", _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b));
     call!(less_equal_f64x8(a: __m512d, b: __m512d) -> __mmask8, "avx512f", _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b));
@@ -524,11 +605,18 @@ mod x86 {
     call!(not8(a: __mmask8) -> __mmask8, "avx512f", !a);
     call!(bits8(a: __mmask8) -> u32, "avx512f", u32::from(a));
     call!(from_bits8(bits: u32) -> __mmask8, "avx512f", bits as __mmask8);
+    call!(write pack_f64x8(v: __m512d, bits: u32, to: *mut f64), "avx512f",
+        _mm512_storeu_pd(to, _mm512_maskz_compress_pd(bits as __mmask8, v)));
+    call!(write pack_numbers8(first: u32, bits: u32, to: *mut u32), "avx512f,avx512vl,avx2", {
+        let each = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+        let all = _mm256_add_epi32(_mm256_set1_epi32(first as i32), each);
+        _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(bits as __mmask8, all));
+    });
     vector!("Eight f64." F64Avx512 MaskF64Avx512 f64 8 __m512d, __mmask8,
         _mm512_set1_pd _mm512_loadu_pd _mm512_storeu_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
         _mm512_sqrt_pd _mm512_min_pd _mm512_max_pd,
         less less_f64x8, less_equal less_equal_f64x8, choose choose_f64x8, add_where add_where_f64x8,
-        and and8, or or8, not not8, bits bits8, from_bits from_bits8);
+        and and8, or or8, not not8, bits bits8, from_bits from_bits8, pack pack_f64x8, pack_numbers pack_numbers8);
 
     call!(less_f32x8(a: __m256, b: __m256) -> __m256, "avx2", _mm256_cmp_ps::<_CMP_LT_OQ>(a, b));
     call!(less_equal_f32x8(a: __m256, b: __m256) -> __m256, "avx2", _mm256_cmp_ps::<_CMP_LE_OQ>(a, b));
@@ -622,6 +710,32 @@ mod tests {
                 assert_eq!(mask.not().bits() & all, !bits & all);
                 assert_eq!(mask.any(), bits != 0);
             }
+        }
+    }
+
+    struct Pack;
+    impl<R: Real> Task<R> for Pack {
+        type Output = ();
+        #[inline(always)]
+        fn run<L: Lanes<R>>(self) {
+            let from: Vec<R> = (0..L::WIDTH).map(R::count).collect();
+            for seed in 0..50u32 {
+                let bits = seed.wrapping_mul(0x9E37_79B9) >> 16 & ((1u32 << L::WIDTH) - 1);
+                let (mut to, mut numbers) = ([R::ZERO; 16], [0; 16]);
+                L::load(&from).pack(bits, &mut to);
+                L::pack_numbers(100, bits, &mut numbers);
+                for (n, k) in (0..L::WIDTH).filter(|k| bits >> k & 1 == 1).enumerate() {
+                    assert_eq!((to[n], numbers[n]), (from[k], 100 + k as u32));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn packing_keeps_the_chosen_lanes_in_order() {
+        for level in [Level::Portable, Level::Avx2, Level::Avx512] {
+            with_lanes::<f32, _>(level, Pack);
+            with_lanes::<f64, _>(level, Pack);
         }
     }
 

@@ -316,6 +316,10 @@ pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
     fn contact(&self) -> Contact {
         Contact::Refuse
     }
+    /// Whether bodies meet each other, or only walls and obstacles.
+    fn bodies_meet(&self) -> bool {
+        true
+    }
     /// Speed at the start when the scenario gives none.
     fn initial_speed(&self) -> R {
         R::ONE
@@ -360,6 +364,9 @@ pub trait Model<R: Scalar, const D: usize>: Send + Sync + 'static {
     }
     /// The wanted motion.
     fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D>;
+    /// Called with the new values of the declared columns where the body moves otherwise than wanted, for laws that keep
+    /// headings in columns of their own.
+    fn performed(&self, _own: &mut [R], _velocity: Vector<R, D>) {}
 }
 
 /// One agent per lane, deciding.
@@ -552,7 +559,12 @@ pub fn add_where<R: Real, L: Lanes<R>, const D: usize>(sums: &mut [L; D], mask: 
 /// The same vector in every lane.
 #[inline(always)]
 pub fn splat<R: Real, L: Lanes<R>, const D: usize>(vector: Vector<R, D>) -> [L; D] {
-    core::array::from_fn(|a| L::splat(vector.0[a]))
+    // loops throughout: a closure is not compiled for the lanes
+    let mut all = [L::splat(R::ZERO); D];
+    for a in 0..D {
+        all[a] = L::splat(vector.0[a]);
+    }
+    all
 }
 
 /// Unit vectors of offsets whose squared lengths are known; zero where the length is at most 1e-12.
@@ -561,7 +573,11 @@ pub fn directions<R: Real, L: Lanes<R>, const D: usize>(offset: &[L; D], squared
     let distance = squared.square_root();
     let apart = L::splat(R::TINY).less(distance);
     let zero = L::splat(R::ZERO);
-    core::array::from_fn(|a| L::choose(apart, offset[a] / distance, zero))
+    let mut unit = *offset;
+    for a in 0..D {
+        unit[a] = L::choose(apart, offset[a] / distance, zero);
+    }
+    unit
 }
 
 /// Inner product, lane by lane.
@@ -583,9 +599,10 @@ pub fn in_view<R: Real, L: Lanes<R>, const D: usize>(
     squared: L,
     cos_half: R,
 ) -> L::Mask {
-    let distance = squared.square_root();
-    let ahead = (L::splat(cos_half) * distance).less_equal(dot(heading, offset));
-    let coincident = distance.less_equal(L::splat(R::TINY));
+    // `cos_half distance <= along`, with both sides times their own size, which saves the root
+    let along = dot(heading, offset);
+    let ahead = (L::splat(cos_half * cos_half.abs()) * squared).less_equal(along * along.greater(-along));
+    let coincident = squared.less_equal(L::splat(R::TINY * R::TINY));
     let resting = dot(heading, heading).less_equal(L::splat(R::ZERO));
     ahead.or(coincident).or(resting)
 }

@@ -1,16 +1,21 @@
 //! Contacts after everyone's motion: walls and obstacles first, then bodies.
 
+use crate::engine::kernel::minimal_lanes;
 use crate::engine::world::World;
+use crate::motion::{dot, splat};
 use crate::parameters::Scalar;
 use crate::physics::{Contact, Met, free_of_environment, resolve};
+use space::lanes::{Lanes, Mask, Task, level, with_lanes};
 use space::{LiveGrid, Vector};
 
 /// Bodies are searched by cells from this number on.
 const CELLS_FROM: usize = 512;
 
 impl<R: Scalar, const D: usize> World<R, D> {
+    /// Radius of a body as others meet it.
     fn radius(&self, id: u32) -> R {
-        self.groups[self.group_of(id)].radius
+        let group = &self.groups[self.group_of(id)];
+        if group.meets { group.radius } else { R::ZERO }
     }
 
     /// Resolves the moves from `now` to `next`, whose rows are in the same order.
@@ -20,6 +25,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
         let environment = self.space.has_walls() || !self.obstacles.is_empty();
         if environment {
             for row in 0..agents {
+                if self.clear[row] {
+                    continue;
+                }
                 let id = self.now.id[row];
                 let group = &self.groups[self.group_of(id)];
                 let from = self.now.position(row);
@@ -34,7 +42,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 }
             }
         }
-        let bodies = |contact| self.groups.iter().any(|g| g.contact == contact && g.radius > R::ZERO);
+        let bodies = |contact| self.groups.iter().any(|g| g.meets && g.contact == contact && g.radius > R::ZERO);
         let (refuse, slide) = (bodies(Contact::Refuse), bodies(Contact::Slide));
         if refuse {
             self.refuse_bodies();
@@ -76,31 +84,19 @@ impl<R: Scalar, const D: usize> World<R, D> {
     fn refuse_bodies(&mut self) {
         let agents = self.now.len();
         let widest = self.groups.iter().fold(R::ZERO, |w, g| w.most(g.radius));
-        let same = self.groups.iter().all(|g| g.radius == widest);
+        let same = self.groups.iter().all(|g| g.radius == widest && g.meets);
         let row_of = |rows: &[u32], id: usize| if rows.is_empty() { id } else { rows[id] as usize };
         if agents < CELLS_FROM && same && self.rows.is_empty() {
-            let limit = (widest + widest).squared();
-            for id in 0..agents {
-                if self.met[id] != Met::Nothing || self.groups[self.group_of(id as u32)].contact != Contact::Refuse {
-                    continue;
-                }
-                let to = self.next.position(id);
-                let touches = |columns: &space::Columns<R, D>, others: core::ops::Range<usize>| {
-                    // a plain pass first: nearly always nobody is near
-                    let near =
-                        others.clone().any(|j| self.space.offset(to, columns.position(j)).length_squared() < limit);
-                    near && others.into_iter().any(|j| {
-                        let after = self.space.offset(to, columns.position(j)).length_squared();
-                        let before = self.space.offset(self.now.position(id), columns.position(j)).length_squared();
-                        after < limit && after <= before
-                    })
-                };
-                if touches(&self.next, 0..id) || touches(&self.now, id + 1..agents) {
-                    let from = self.now.position(id);
-                    self.next.set_position(id, from);
-                    self.met[id] = Met::Member;
-                }
+            let mut places = core::mem::replace(&mut self.places, core::array::from_fn(|_| Vec::new()));
+            for (places, now) in places.iter_mut().zip(&self.now.position) {
+                places.clear();
+                places.extend_from_slice(&now[..agents]);
+                // nobody is where the last vector reaches beyond the rows
+                places.resize(now.len(), R::INFINITY);
             }
+            let reach = widest + widest;
+            with_lanes(level(), RefuseBodies { world: self, places: &mut places, limit: reach * reach });
+            self.places = places;
             return;
         }
         // the places that count, in rows: old ones until a move is accepted
@@ -109,7 +105,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         for id in 0..agents {
             let row = row_of(&self.rows, id);
             let group = &self.groups[self.group_of(id as u32)];
-            if group.contact != Contact::Refuse {
+            if group.contact != Contact::Refuse || !group.meets {
                 let to = self.next.position(row);
                 places.set_position(row, to);
                 if let Some(cells) = &mut cells {
@@ -150,6 +146,20 @@ impl<R: Scalar, const D: usize> World<R, D> {
         }
     }
 
+    /// Whether a move would end in contact with a body that it does not move away from.
+    fn touches(&self, id: usize, places: &[Vec<R>; D], limit: R) -> bool {
+        let (from, to) = (self.now.position(id), self.next.position(id));
+        (0..self.now.len()).filter(|&other| other != id).any(|other| {
+            let mut place = Vector::ZERO;
+            for a in 0..D {
+                place.0[a] = places[a][other];
+            }
+            let after = self.space.offset(to, place).length_squared();
+            let before = self.space.offset(from, place).length_squared();
+            after < limit && after <= before
+        })
+    }
+
     /// Pushes overlapping bodies apart by half the overlap each, never through a wall.
     fn push_apart(&mut self) {
         let agents = self.now.len();
@@ -161,7 +171,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         for row in 0..agents {
             let id = self.next.id[row];
             let group = &self.groups[self.group_of(id)];
-            if group.contact != Contact::Slide || group.radius <= R::ZERO {
+            if group.contact != Contact::Slide || group.radius <= R::ZERO || !group.meets {
                 continue;
             }
             let place = self.next.position(row);
@@ -221,7 +231,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         let straight = from + self.space.minimal(to - from);
         let mut out = resolve(group.contact, &self.space, &self.obstacles, from, straight, velocity, group.radius);
         out.place = self.space.place(out.place);
-        if group.contact == Contact::Refuse && group.radius > R::ZERO && out.met == Met::Nothing {
+        if group.contact == Contact::Refuse && group.radius > R::ZERO && group.meets && out.met == Met::Nothing {
             let touched = (0..self.now.len()).filter(|&other| other != row).any(|other| {
                 let reach = group.radius + self.radius(other as u32);
                 let after = self.space.offset(out.place, self.now.position(other)).length_squared();
@@ -236,4 +246,82 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.met[row] = out.met;
         (out.place, out.velocity)
     }
+}
+
+/// Bodies of one radius, rows in the order of ids: every move against all places that count, several at a time.
+struct RefuseBodies<'a, R: Scalar, const D: usize> {
+    world: &'a mut World<R, D>,
+    /// Old places until a move is accepted.
+    places: &'a mut [Vec<R>; D],
+    limit: R,
+}
+
+impl<R: Scalar, const D: usize> Task<R> for RefuseBodies<'_, R, D> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) {
+        let Self { world, places, limit } = self;
+        let limits = L::splat(limit);
+        let images = world.space.is_periodic();
+        for group in 0..world.groups.len() {
+            let refuses = world.groups[group].contact == Contact::Refuse;
+            let first = world.ranges[group].first as usize;
+            for id in first..first + world.ranges[group].count as usize {
+                if world.met[id] != Met::Nothing {
+                    for a in 0..D {
+                        places[a][id] = world.next.position[a][id];
+                    }
+                    continue;
+                }
+                let to = world.next.position(id);
+                let mut touched = false;
+                if refuses {
+                    // the own old place does not count
+                    for places in places.iter_mut() {
+                        places[id] = R::INFINITY;
+                    }
+                    let least = if images {
+                        least::<R, L, D, true>(world, places, to)
+                    } else {
+                        least::<R, L, D, false>(world, places, to)
+                    };
+                    touched = least.less(limits).any() && world.touches(id, places, limit);
+                }
+                if touched {
+                    let from = world.now.position(id);
+                    world.next.set_position(id, from);
+                    world.met[id] = Met::Member;
+                    for a in 0..D {
+                        places[a][id] = from.0[a];
+                    }
+                } else {
+                    for a in 0..D {
+                        places[a][id] = to.0[a];
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Squared distances from a place to the nearest of those that count, among each lane's share of them.
+#[inline(always)]
+fn least<R: Scalar, L: Lanes<R>, const D: usize, const IMAGES: bool>(
+    world: &World<R, D>,
+    places: &[Vec<R>; D],
+    to: Vector<R, D>,
+) -> L {
+    let to: [L; D] = splat(to);
+    let mut least = L::splat(R::INFINITY);
+    for first in (0..world.now.len()).step_by(L::WIDTH) {
+        let mut offset = to;
+        for a in 0..D {
+            offset[a] = L::load(&places[a][first..]) - to[a];
+            if IMAGES {
+                offset[a] = minimal_lanes(&world.space, a, offset[a]);
+            }
+        }
+        least = least.lesser(dot(&offset, &offset));
+    }
+    least
 }

@@ -1,8 +1,8 @@
 //! One group's way through the stages: chosen once, called once per block of agents.
 
 use crate::motion::{
-    Around, Draws, Injected, LaneSums, Me, MeLanes, Model, Motion, NearItem, NearObstacle, Other, Percepts, Start,
-    Stream, Summed, WIDEST, MOST_OWN, splat,
+    Around, Draws, Injected, LaneSums, MOST_OWN, Me, MeLanes, Model, Motion, NearItem, NearObstacle, Other, Percepts,
+    Start, Stream, Summed, WIDEST, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::Mobility;
@@ -107,12 +107,16 @@ pub(crate) struct Stages<R, const D: usize> {
     pub(crate) mobility: Mobility<R>,
     pub(crate) noise: MotionNoise<R>,
     pub(crate) dt: R,
+    /// Body radius.
+    pub(crate) radius: R,
     /// Whether motions are performed exactly as wanted.
     pub(crate) plain: bool,
 }
 
 /// Buffers of one worker.
 pub(crate) struct Scratch<R, const D: usize> {
+    /// Number of detected members: so many places of the next three are theirs.
+    found: usize,
     row: Vec<u32>,
     offset: [Vec<R>; D],
     squared: Vec<R>,
@@ -134,6 +138,7 @@ pub(crate) struct Scratch<R, const D: usize> {
 impl<R: Scalar, const D: usize> Scratch<R, D> {
     pub(crate) fn new(columns: usize) -> Self {
         Self {
+            found: 0,
             row: Vec::new(),
             offset: core::array::from_fn(|_| Vec::new()),
             squared: Vec::new(),
@@ -150,23 +155,33 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             notes: None,
         }
     }
+    /// Makes room for so many more, and for a full vector of lanes after them.
+    #[inline(always)]
+    fn reserve(&mut self, more: usize) {
+        let needed = self.found + more + WIDEST;
+        if self.row.len() < needed {
+            self.row.resize(2 * needed, 0);
+            self.offset.iter_mut().for_each(|o| o.resize(2 * needed, R::ZERO));
+            self.squared.resize(2 * needed, R::ZERO);
+        }
+    }
     #[inline(always)]
     fn push(&mut self, row: u32, offset: Vector<R, D>, squared: R) {
-        self.row.push(row);
+        self.reserve(1);
+        self.row[self.found] = row;
         for a in 0..D {
-            self.offset[a].push(offset.0[a]);
+            self.offset[a][self.found] = offset.0[a];
         }
-        self.squared.push(squared);
+        self.squared[self.found] = squared;
+        self.found += 1;
     }
     fn clear(&mut self) {
-        self.row.clear();
-        self.offset.iter_mut().for_each(Vec::clear);
-        self.squared.clear();
+        self.found = 0;
     }
     /// Keeps the percepts for which `keep` holds, in order.
     fn retain(&mut self, mut keep: impl FnMut(&Self, usize) -> bool) {
         let mut kept = 0;
-        for k in 0..self.row.len() {
+        for k in 0..self.found {
             if keep(self, k) {
                 self.row[kept] = self.row[k];
                 for a in 0..D {
@@ -176,9 +191,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
                 kept += 1;
             }
         }
-        self.row.truncate(kept);
-        self.offset.iter_mut().for_each(|o| o.truncate(kept));
-        self.squared.truncate(kept);
+        self.found = kept;
     }
     fn at(&self, k: usize) -> Vector<R, D> {
         Vector(core::array::from_fn(|a| self.offset[a][k]))
@@ -189,15 +202,18 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
 pub(crate) struct Writer<'a, R, const D: usize> {
     /// What agents remember of their last scan, by id; empty where nobody does.
     memory: Shared<'a, Memory<R>>,
+    /// Whether a row's move is known to meet neither wall nor obstacle.
+    clear: Shared<'a, bool>,
     position: [Shared<'a, R>; D],
     velocity: [Shared<'a, R>; D],
     state: Vec<Shared<'a, R>>,
 }
 
 impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
-    pub(crate) fn new(columns: &'a mut Columns<R, D>, memory: &'a mut [Memory<R>]) -> Self {
+    pub(crate) fn new(columns: &'a mut Columns<R, D>, memory: &'a mut [Memory<R>], clear: &'a mut [bool]) -> Self {
         Self {
             memory: Shared::new(memory),
+            clear: Shared::new(clear),
             position: columns.position.each_mut().map(|c| Shared::new(c)),
             velocity: columns.velocity.each_mut().map(|c| Shared::new(c)),
             state: columns.state.iter_mut().map(|c| Shared::new(c)).collect(),
@@ -255,6 +271,8 @@ pub(crate) trait Kernel<R: Scalar, const D: usize>: Send + Sync {
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
     ) -> Motion<R, D>;
+    /// Tells the law that a body moves otherwise than wanted.
+    fn performed(&self, _own: &mut [R], _velocity: Vector<R, D>) {}
     /// Number of others in any named set of one member, for statistics.
     fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize;
 }
@@ -386,7 +404,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 true
             }
         };
-        let count = scratch.row.len();
+        let count = scratch.found;
         scratch.sets.clear();
         scratch.sets.resize(count, 0);
         indirect
@@ -394,11 +412,11 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     /// Puts the detected members into the named sets.
     #[inline(never)]
     fn select(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>, indirect: bool) {
-        let count = scratch.row.len();
+        let count = scratch.found;
         let candidates = Candidates {
-            offset: core::array::from_fn(|a| scratch.offset[a].as_slice()),
-            squared: &scratch.squared,
-            row: &scratch.row,
+            offset: firsts(&scratch.offset, count),
+            squared: &scratch.squared[..count],
+            row: &scratch.row[..count],
             others: if indirect { &scratch.sensed } else { view.others },
             heading: view.now.velocity(row).unit(),
             member: (view.now.id[row] - self.first) as usize,
@@ -436,10 +454,10 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                     if !asked {
                         break;
                     }
-                    if scratch.row.len() >= count {
+                    if scratch.found >= count {
                         return;
                     }
-                    radius *= R::of(if scratch.row.is_empty() { 2.0 } else { 1.4 });
+                    radius *= R::of(if scratch.found == 0 { 2.0 } else { 1.4 });
                 }
                 scratch.clear();
                 pairs(view, row, place, R::INFINITY, scratch);
@@ -480,7 +498,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             scratch.retain(|s, k| draws.uniform_about(view.others.id[s.row[k] as usize], 0) >= miss);
         }
         if noise.distance > R::ZERO || noise.direction > R::ZERO {
-            for k in 0..scratch.row.len() {
+            for k in 0..scratch.found {
                 let j = view.others.id[scratch.row[k] as usize];
                 let farther = (R::ONE + noise.distance * R::of(draws.normal_about(j, 1))).most(R::ZERO);
                 let offset = scratch.at(k);
@@ -495,7 +513,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
         if noise.heading > R::ZERO {
             self.copy_sensed(view, scratch);
-            for k in 0..scratch.row.len() {
+            for k in 0..scratch.found {
                 let j = scratch.sensed.id[k];
                 let aside = noise.heading * R::of(draws.normal_about(j, 5));
                 let velocity = scratch.sensed.velocity(k);
@@ -510,7 +528,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     }
     /// Copies what is shown of the detected members into the scratch, so that it may be changed.
     fn copy_sensed(&self, view: &View<'_, R, D>, scratch: &mut Scratch<R, D>) {
-        let count = scratch.row.len();
+        let count = scratch.found;
         scratch.make_room(count);
         for k in 0..count {
             let row = scratch.row[k] as usize;
@@ -525,7 +543,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     /// Drops members hidden behind nearer bodies or opaque obstacles.
     fn hide(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) {
         let place = view.now.position(row);
-        let count = scratch.row.len();
+        let count = scratch.found;
         scratch.order.clear();
         scratch.order.extend(0..count as u32);
         let squared = &scratch.squared;
@@ -564,7 +582,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         let place = view.now.position(row);
         self.candidates(view, row, Reach::Within(robot.scanner_range() + robot.widest_body), scratch);
         scratch.robot.bodies.clear();
-        for k in 0..scratch.row.len() {
+        for k in 0..scratch.found {
             let other = scratch.row[k] as usize;
             let id = view.others.id[other];
             scratch.robot.add_body(scratch.at(k), view.body_radius(id), id);
@@ -601,6 +619,16 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
     }
 }
 
+/// The first `count` places of each column.
+#[inline(always)]
+fn firsts<R, const D: usize>(columns: &[Vec<R>; D], count: usize) -> [&[R]; D] {
+    let mut firsts = [&[][..]; D];
+    for a in 0..D {
+        firsts[a] = &columns[a][..count];
+    }
+    firsts
+}
+
 /// A motion turned by an angle (about a drawn axis in three dimensions).
 fn turned<R: Scalar, const D: usize>(motion: Motion<R, D>, angle: R, draws: &DrawStream, slot: u32) -> Motion<R, D> {
     let axis = if D == 3 { R::of(draws.uniform(slot)) * R::TAU } else { R::ZERO };
@@ -608,8 +636,8 @@ fn turned<R: Scalar, const D: usize>(motion: Motion<R, D>, angle: R, draws: &Dra
     Motion { velocity: turn(motion.velocity), displacement: turn(motion.displacement) }
 }
 
-/// All pairs: several others at a time, each tested by itself.
-struct Pairs<'a, 'b, R, const D: usize> {
+/// All pairs: several others at a time, each tested by itself. With `IMAGES`, displacements are made minimal.
+struct Pairs<'a, 'b, R, const D: usize, const IMAGES: bool> {
     view: &'a View<'b, R, D>,
     row: usize,
     place: Vector<R, D>,
@@ -624,10 +652,17 @@ fn pairs<R: Scalar, const D: usize>(
     radius: R,
     scratch: &mut Scratch<R, D>,
 ) {
-    with_lanes(level(), Pairs { view, row, place, radius, scratch });
+    if view.space.is_periodic() {
+        with_lanes(level(), Pairs::<R, D, true> { view, row, place, radius, scratch });
+    } else {
+        with_lanes(level(), Pairs::<R, D, false> { view, row, place, radius, scratch });
+    }
+    if view.mortality.is_some() {
+        scratch.retain(|s, k| !view.dead(view.others, s.row[k] as usize));
+    }
 }
 
-impl<R: Scalar, const D: usize> Task<R> for Pairs<'_, '_, R, D> {
+impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Pairs<'_, '_, R, D, IMAGES> {
     type Output = ();
     #[inline(always)]
     fn run<L: Lanes<R>>(self) {
@@ -635,32 +670,31 @@ impl<R: Scalar, const D: usize> Task<R> for Pairs<'_, '_, R, D> {
         let n = view.others.len();
         let limit = L::splat(radius * radius);
         let me: [L; D] = splat(place);
-        scratch.row.reserve(n);
+        scratch.reserve(n);
+        let mut found = scratch.found;
         let mut first = 0;
         while first < n {
-            let offset = lane_offsets::<R, L, D>(view, first, &me);
+            let mut offset = me;
+            for a in 0..D {
+                offset[a] = L::load(&view.others.position[a][first..]) - me[a];
+                if IMAGES {
+                    offset[a] = minimal_lanes(view.space, a, offset[a]);
+                }
+            }
             let squared = crate::motion::dot(&offset, &offset);
             let mut bits = squared.less(limit).bits() & mask_of(n - first);
             if row >= first && row < first + L::WIDTH {
                 bits &= !(1 << (row - first));
             }
-            if bits != 0 {
-                let mut squares = [R::ZERO; WIDEST];
-                squared.store(&mut squares);
-                let mut parts = [[R::ZERO; WIDEST]; D];
-                for a in 0..D {
-                    offset[a].store(&mut parts[a]);
-                }
-                while bits != 0 {
-                    let k = bits.trailing_zeros() as usize;
-                    bits &= bits - 1;
-                    if !view.dead(view.others, first + k) {
-                        scratch.push((first + k) as u32, Vector(core::array::from_fn(|a| parts[a][k])), squares[k]);
-                    }
-                }
+            L::pack_numbers(first as u32, bits, &mut scratch.row[found..]);
+            for a in 0..D {
+                offset[a].pack(bits, &mut scratch.offset[a][found..]);
             }
+            squared.pack(bits, &mut scratch.squared[found..]);
+            found += bits.count_ones() as usize;
             first += L::WIDTH;
         }
+        scratch.found = found;
     }
 }
 
@@ -670,17 +704,8 @@ fn mask_of(count: usize) -> u32 {
     if count >= 32 { u32::MAX } else { (1u32 << count) - 1 }
 }
 
-/// Offsets from `me` to the `WIDTH` rows from `first` on, by minimum image.
 #[inline(always)]
-fn lane_offsets<R: Scalar, L: Lanes<R>, const D: usize>(view: &View<'_, R, D>, first: usize, me: &[L; D]) -> [L; D] {
-    core::array::from_fn(|a| {
-        let offset = L::load(&view.others.position[a][first..]) - me[a];
-        minimal_lanes(view.space, a, offset)
-    })
-}
-
-#[inline(always)]
-fn minimal_lanes<R: Scalar, L: Lanes<R>, const D: usize>(space: &Space<R, D>, axis: usize, d: L) -> L {
+pub(crate) fn minimal_lanes<R: Scalar, L: Lanes<R>, const D: usize>(space: &Space<R, D>, axis: usize, d: L) -> L {
     if let Edge::Periodic(length) = space.edges[axis] {
         let (length, half) = (L::splat(length), L::splat(length * R::HALF));
         let above = half.less_equal(d);
@@ -713,8 +738,9 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         let stages = &self.stages;
         let indirect = stages.detect(view, row, scratch, memory);
         let selected = stages.own_sets && {
-            let offset = core::array::from_fn(|a| scratch.offset[a].as_slice());
-            self.law.select(view.now.velocity(row).unit(), &offset, &scratch.squared, &mut scratch.sets)
+            let offset = firsts(&scratch.offset, scratch.found);
+            let squared = &scratch.squared[..scratch.found];
+            self.law.select(view.now.velocity(row).unit(), &offset, squared, &mut scratch.sets)
         };
         if !selected {
             stages.select(view, row, scratch, indirect);
@@ -729,9 +755,9 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         }
         stages.load(view.now, row, scratch);
         let seen = Percepts {
-            offset: core::array::from_fn(|a| scratch.offset[a].as_slice()),
-            squared: &scratch.squared,
-            row: &scratch.row,
+            offset: firsts(&scratch.offset, scratch.found),
+            squared: &scratch.squared[..scratch.found],
+            row: &scratch.row[..scratch.found],
             sets: &scratch.sets,
             others: if indirect { &scratch.sensed } else { view.others },
             columns: &stages.columns,
@@ -778,8 +804,18 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             let wanted = self.decide(view, row, scratch, memory);
             let mut body = core::mem::take(&mut scratch.body);
             let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &mut body);
+            if !self.stages.plain && velocity != wanted.velocity {
+                self.law.performed(&mut scratch.own, velocity);
+            }
+            // a move that is shorter than the free space around it meets nothing
+            let room = match (&self.stages.sensing, self.stages.obstacle_reach) {
+                (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() => reach - self.stages.radius,
+                _ => R::ZERO,
+            };
+            let moved = (place - view.now.position(row)).length();
             // SAFETY: as above.
             unsafe {
+                out.clear.write(row, moved < room);
                 out.write(row, place, velocity);
                 out.write_state(row, &self.stages.columns, &scratch.own);
                 out.write_state(row, &self.stages.body_columns, &body);
@@ -830,6 +866,9 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         memory: Option<&mut Memory<R>>,
     ) -> Motion<R, D> {
         self.decide(view, row, scratch, memory)
+    }
+    fn performed(&self, own: &mut [R], velocity: Vector<R, D>) {
+        self.law.performed(own, velocity);
     }
     fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
         let indirect = self.stages.detect(view, row, scratch, None);

@@ -38,11 +38,13 @@ impl<R: Scalar, const D: usize> World<R, D> {
         }
         let mut next = core::mem::replace(&mut self.next, space::Columns::new(0, 0));
         let mut memory = core::mem::take(&mut self.memory);
+        let mut clear = core::mem::take(&mut self.clear);
+        clear.fill(false);
         let mut scratch = core::mem::take(&mut self.scratch);
         {
             next.id.copy_from_slice(&self.now.id);
             let view = self.view();
-            let out = Writer::new(&mut next, &mut memory);
+            let out = Writer::new(&mut next, &mut memory, &mut clear);
             let worker_scratch = space::parallel::Shared::new(&mut scratch);
             let rows = self.now.len();
             let threads = self.workers.threads();
@@ -58,6 +60,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         }
         self.next = next;
         self.memory = memory;
+        self.clear = clear;
         self.scratch = scratch;
         self.finish(self.dt, self.time + self.dt.to_f64());
     }
@@ -109,6 +112,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
             let wanted = group.kernel.one(&view, row, &mut scratch, memory.as_mut());
             let stages = group.kernel.stages();
             let (place, velocity) = stages.perform(&view, row, wanted, self.dt, &mut scratch.body);
+            if velocity != wanted.velocity {
+                group.kernel.performed(&mut scratch.own, velocity);
+            }
             for (&c, &value) in stages.columns.iter().zip(&scratch.own) {
                 self.now.state[c][row] = value;
             }
@@ -195,7 +201,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 let draw = uniform(self.seed, Purpose::Environment, count, row as u32 * 8 + 6);
                 clocks.due[row] += match clock {
                     Clock::Regular { jitter } => period * (1.0 + jitter * (2.0 * draw - 1.0)),
-                    Clock::Poisson => -period * (1.0 - draw).ln(),
+                    Clock::Poisson => -period * <f64 as space::Real>::ln(1.0 - draw),
                 };
             } else {
                 stages.load(&self.now, row, &mut scratch);

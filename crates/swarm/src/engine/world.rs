@@ -27,6 +27,8 @@ pub struct Group<R: Scalar, const D: usize> {
     pub(crate) kernel: Box<dyn Kernel<R, D>>,
     pub(crate) contact: Contact,
     pub(crate) radius: R,
+    /// Whether its bodies meet others.
+    pub(crate) meets: bool,
 }
 
 /// What an asynchronous driver remembers.
@@ -79,6 +81,10 @@ pub struct World<R: Scalar, const D: usize> {
     pub(crate) collided: Option<usize>,
     pub(crate) order: Vec<u32>,
     pub(crate) push: Vec<Vector<R, D>>,
+    /// Places that count while moves are accepted one by one.
+    pub(crate) places: [Vec<R>; D],
+    /// Rows whose move is known to meet neither wall nor obstacle.
+    pub(crate) clear: Vec<bool>,
 }
 
 impl<R: Scalar, const D: usize> World<R, D>
@@ -187,13 +193,21 @@ where
                 mobility: group.mobility,
                 noise: group.noise,
                 dt,
+                radius,
                 plain: group.mobility == Mobility::Ideal
                     && group.noise.execution_direction == R::ZERO
                     && group.noise.execution_speed == R::ZERO,
             };
             let kernel = (model.build)(stages);
             headings |= kernel.streams() == Some(true);
-            groups.push(Group { name: group.name.clone(), model: group.model.clone(), kernel, contact, radius });
+            groups.push(Group {
+                name: group.name.clone(),
+                model: group.model.clone(),
+                kernel,
+                contact,
+                radius,
+                meets: model.bodies_meet,
+            });
             ranges.push(GroupRange { name: group.name.clone(), first, count: group.count as u32 });
             bodies.push((first, radius));
             first += group.count as u32;
@@ -210,8 +224,9 @@ where
             }
             None => None,
         };
-        let body_contacts =
-            groups.iter().any(|g| g.radius > R::ZERO && matches!(g.contact, Contact::Refuse | Contact::Slide));
+        let body_contacts = groups
+            .iter()
+            .any(|g| g.meets && g.radius > R::ZERO && matches!(g.contact, Contact::Refuse | Contact::Slide));
         let contacts = groups.iter().any(|g| g.contact != Contact::Free)
             && (plan.space.has_walls() || !obstacles.is_empty() || body_contacts);
         let threads = plan.threads.max(1);
@@ -265,6 +280,8 @@ where
             collided,
             order: Vec::new(),
             push: Vec::new(),
+            places: core::array::from_fn(|_| Vec::new()),
+            clear: vec![false; agents],
             declared,
         };
         world.place_groups(&plan)?;
@@ -437,7 +454,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
             volume *= extent.max(1e-9);
         }
         let share = volume * (count.max(1) as f64) / (self.now.len().max(1) as f64);
-        R::of(libm_root(share, D))
+        R::of(root_of(share, D))
     }
     pub(crate) fn view(&self) -> View<'_, R, D> {
         View {
@@ -663,11 +680,11 @@ impl<R: Scalar, const D: usize> space::lanes::Task<R> for Headings<'_, '_, R, D>
     }
 }
 
-fn libm_root(value: f64, degree: usize) -> f64 {
+fn root_of(value: f64, degree: usize) -> f64 {
     match degree {
         1 => value,
         2 => value.sqrt(),
-        _ => value.powf(1.0 / degree as f64),
+        _ => <f64 as Real>::powf(value, 1.0 / degree as f64),
     }
 }
 

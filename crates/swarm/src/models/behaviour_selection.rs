@@ -232,6 +232,174 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
     }
 }
 
+// Small traits in place of closures, which would not be compiled for the processor's widest vectors.
+
+/// Which percepts an agent sees.
+trait Sight {
+    /// Named sets of a percept, as bits.
+    fn sets(&self, k: usize) -> u32;
+}
+
+/// Sight as selection found it.
+struct Selected<'a>(&'a [u32]);
+impl Sight for Selected<'_> {
+    #[inline(always)]
+    fn sets(&self, k: usize) -> u32 {
+        self.0[k]
+    }
+}
+
+/// Sight within limits of azimuth and elevation.
+struct ByAxes<'a, R> {
+    law: &'a BehaviourSelection<R>,
+    seen: &'a Percepts<'a, R, 3>,
+    angles: (R, R),
+}
+impl<R: Scalar> Sight for ByAxes<'_, R> {
+    fn sets(&self, k: usize) -> u32 {
+        let sets = self.seen.sets[k];
+        let always = if self.law.avoid_blind { 0 } else { 1 << AVOIDANCE };
+        if sets != 0 && self.law.sees_by_axes(self.angles, self.seen.offset(k)) { sets } else { sets & always }
+    }
+}
+
+/// What is summed over neighbours.
+trait Term<R: Scalar> {
+    /// That of a percept.
+    fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3>;
+}
+
+/// Velocities, in place of headings: all are equally fast.
+struct Velocities;
+impl<R: Scalar> Term<R> for Velocities {
+    #[inline(always)]
+    fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3> {
+        seen.velocity(k)
+    }
+}
+
+/// Unit vectors towards others.
+struct Directions;
+impl<R: Scalar> Term<R> for Directions {
+    #[inline(always)]
+    fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3> {
+        let distance = seen.squared[k].root();
+        let per = if distance > R::TINY { R::ONE / distance } else { R::ZERO };
+        Vector([seen.offset[0][k] * per, seen.offset[1][k] * per, seen.offset[2][k] * per])
+    }
+}
+
+#[inline(always)]
+fn inside(sight: &impl Sight, k: usize, set: usize) -> bool {
+    sight.sets(k) >> set & 1 == 1
+}
+
+/// Whether percept `a` is nearer than `b`; ties go to the lower id.
+#[inline(always)]
+fn before<R: Scalar>(seen: &Percepts<'_, R, 3>, a: usize, b: usize) -> bool {
+    seen.squared[a] < seen.squared[b] || (seen.squared[a] == seen.squared[b] && seen.id(a) < seen.id(b))
+}
+
+/// Sums over a whole set, of every eighth percept each, so that the processor may add eight at a time; the number does not
+/// depend on the processor.
+const TOGETHER: usize = 8;
+
+#[inline(always)]
+fn sum_of_all<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
+    let mut sums = [[R::ZERO; TOGETHER]; 3];
+    let whole = seen.len() - seen.len() % TOGETHER;
+    for first in (0..whole).step_by(TOGETHER) {
+        for l in 0..TOGETHER {
+            let term = T::of(seen, first + l);
+            let chosen = inside(sight, first + l, set);
+            for a in 0..3 {
+                sums[a][l] += if chosen { term.0[a] } else { R::ZERO };
+            }
+        }
+    }
+    for k in whole..seen.len() {
+        if inside(sight, k, set) {
+            let term = T::of(seen, k);
+            for a in 0..3 {
+                sums[a][k - whole] += term.0[a];
+            }
+        }
+    }
+    let mut sum = Vector::ZERO;
+    for a in 0..3 {
+        for l in 0..TOGETHER {
+            sum.0[a] += sums[a][l];
+        }
+    }
+    sum
+}
+
+/// A squared distance that at least `considered` of a set do not exceed, and few others: so many members as this, each
+/// the nearest of its share of the set, are that near.
+#[inline(always)]
+fn bound_of_nearest<R: Scalar>(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize, considered: usize) -> R {
+    let mut least = [R::INFINITY; KEPT];
+    let whole = seen.len() - seen.len() % KEPT;
+    for first in (0..whole).step_by(KEPT) {
+        for l in 0..KEPT {
+            let squared = if inside(sight, first + l, set) { seen.squared[first + l] } else { R::INFINITY };
+            least[l] = if squared < least[l] { squared } else { least[l] };
+        }
+    }
+    for k in whole..seen.len() {
+        if inside(sight, k, set) && seen.squared[k] < least[k - whole] {
+            least[k - whole] = seen.squared[k];
+        }
+    }
+    let mut bound = R::INFINITY;
+    for l in 0..KEPT {
+        let mut rank = 0;
+        for other in 0..KEPT {
+            rank += usize::from(least[other] <= least[l]);
+        }
+        let better = rank >= considered && least[l] < bound;
+        bound = if better { least[l] } else { bound };
+    }
+    bound
+}
+
+/// The nearest of a set that has more than `considered` members, the nearest first.
+#[inline(always)]
+fn kept_nearest<R: Scalar>(
+    seen: &Percepts<'_, R, 3>,
+    sight: &impl Sight,
+    set: usize,
+    considered: usize,
+) -> [u32; KEPT] {
+    const LISTED: usize = 64;
+    let bound = bound_of_nearest(seen, sight, set, considered);
+    let mut kept = [0; KEPT];
+    let mut filled = 0;
+    for first in (0..seen.len()).step_by(LISTED) {
+        // a list first, without branches
+        let mut list = [0; LISTED];
+        let mut listed = 0;
+        for k in first..seen.len().min(first + LISTED) {
+            list[listed % LISTED] = k as u32;
+            listed += usize::from(inside(sight, k, set) & (seen.squared[k] <= bound));
+        }
+        for &k in &list[..listed] {
+            if filled < considered {
+                filled += 1;
+            } else if !before(seen, k as usize, kept[filled - 1] as usize) {
+                continue;
+            }
+            let mut at = filled - 1;
+            while at > 0 && before(seen, k as usize, kept[at - 1] as usize) {
+                kept[at] = kept[at - 1];
+                at -= 1;
+            }
+            kept[at] = k;
+        }
+    }
+    kept
+}
+
 impl<R: Scalar> BehaviourSelection<R> {
     /// Bounds of the zones, from centre to centre.
     #[inline(always)]
@@ -244,21 +412,23 @@ impl<R: Scalar> BehaviourSelection<R> {
     }
     /// Whether a direction (of any length) lies within the field of view.
     #[inline(always)]
-    fn sees(&self, heading: Vector<R, 3>, (theta, phi): (R, R), offset: Vector<R, 3>) -> bool {
+    fn sees(&self, heading: Vector<R, 3>, angles: (R, R), offset: Vector<R, 3>) -> bool {
         match self.view {
             View::Cone => {
                 let limit = cos_half(self.field_of_view.radians());
                 in_view::<R, R, 3>(&heading.0, &offset.0, offset.length_squared(), limit)
             }
-            View::Axes => {
-                let level = (offset[0].squared() + offset[1].squared()).root();
-                let aside = (offset[1].atan2(offset[0]) - theta).wrapped().abs();
-                let above = (offset[2].atan2(level) - phi).abs();
-                let (half, vertical) = (self.field_of_view.radians(), self.vertical_field_of_view.radians());
-                // straight above or below has no azimuth
-                (aside <= half * R::HALF || level <= R::TINY) && above <= vertical * R::HALF
-            }
+            View::Axes => self.sees_by_axes(angles, offset),
         }
+    }
+    fn sees_by_axes(&self, (theta, phi): (R, R), offset: Vector<R, 3>) -> bool {
+        let level = (offset[0].squared() + offset[1].squared()).root();
+        let aside = (offset[1].atan2(offset[0]) - theta).wrapped().abs();
+        let above = (offset[2].atan2(level) - phi).abs();
+        let (half, vertical) =
+            (self.field_of_view.radians() * R::HALF, self.vertical_field_of_view.radians() * R::HALF);
+        // straight above or below has no azimuth
+        (aside <= half || level <= R::TINY) && above <= vertical
     }
     /// The heading of two angles.
     #[inline(always)]
@@ -297,50 +467,40 @@ impl<R: Scalar> BehaviourSelection<R> {
         // from libm, as everywhere
         1.0 / (1.0 + Real::exp(exponent))
     }
-    /// Calls `add` with the `considered` nearest members of a set of `count`.
+    /// The sum of headings or directions over the `considered` nearest members of a set of `count`.
     #[inline(always)]
-    fn nearest(
+    fn sum_of_nearest<T: Term<R>>(
         &self,
         seen: &Percepts<'_, R, 3>,
-        visible: impl Fn(usize) -> u32,
+        sight: &impl Sight,
         set: usize,
         count: u32,
-        mut add: impl FnMut(usize),
-    ) {
+    ) -> Vector<R, 3> {
         let considered = self.considered;
-        let inside = |k: usize| visible(k) >> set & 1 == 1;
-        let before = |a: usize, b: usize| {
-            seen.squared[a] < seen.squared[b] || (seen.squared[a] == seen.squared[b] && seen.id(a) < seen.id(b))
-        };
-        if considered == 0 || considered >= count as usize {
-            (0..seen.len()).filter(|&k| inside(k)).for_each(add);
-        } else if considered <= KEPT {
-            let mut kept = [0usize; KEPT];
-            let mut filled = 0;
-            for k in (0..seen.len()).filter(|&k| inside(k)) {
-                if filled == considered {
-                    if !before(k, kept[filled - 1]) {
-                        continue;
-                    }
-                } else {
-                    filled += 1;
-                }
-                let mut at = filled - 1;
-                while at > 0 && before(k, kept[at - 1]) {
-                    kept[at] = kept[at - 1];
-                    at -= 1;
-                }
-                kept[at] = k;
+        let count = count as usize;
+        if considered == 0 || considered >= count {
+            return sum_of_all::<R, T>(seen, sight, set);
+        }
+        let mut sum = Vector::ZERO;
+        if considered <= KEPT {
+            for &k in &kept_nearest(seen, sight, set, considered)[..considered] {
+                sum += T::of(seen, k as usize);
             }
-            kept[..filled].iter().for_each(|&k| add(k));
-        } else {
-            // too many to keep in order, too few to take all: whoever has fewer nearer ones than that
-            for k in (0..seen.len()).filter(|&k| inside(k)) {
-                if (0..seen.len()).filter(|&j| inside(j) && before(j, k)).count() < considered {
-                    add(k);
+            return sum;
+        }
+        // too many to keep in order, too few to take all: whoever has fewer nearer ones than that
+        for k in 0..seen.len() {
+            if inside(sight, k, set) {
+                let mut rank = 0;
+                for j in 0..seen.len() {
+                    rank += usize::from(inside(sight, j, set) && before(seen, j, k));
+                }
+                if rank < considered {
+                    sum += T::of(seen, k);
                 }
             }
         }
+        sum
     }
 
     #[inline(always)]
@@ -348,15 +508,15 @@ impl<R: Scalar> BehaviourSelection<R> {
         &self,
         me: &mut Me<'_, R, 3>,
         seen: &Percepts<'_, R, 3>,
-        visible: impl Fn(usize) -> u32 + Copy,
+        sight: &impl Sight,
         draws: &Draws<'_>,
     ) -> Motion<R, 3> {
         let (theta, phi) = (me.own[THETA], me.own[PHI]);
         let mut counts = [0u32; 3];
         for k in 0..seen.len() {
-            let bits = visible(k);
-            for (set, count) in counts.iter_mut().enumerate() {
-                *count += bits >> set & 1;
+            let sets = sight.sets(k);
+            for set in 0..3 {
+                counts[set] += sets >> set & 1;
             }
         }
         let (mut away, mut obstacles) = (Vector::<R, 3>::ZERO, 0u32);
@@ -366,17 +526,6 @@ impl<R: Scalar> BehaviourSelection<R> {
                 obstacles += 1;
             }
         }
-        // sums of headings are sums of velocities, as all are equally fast
-        let headings = || {
-            let mut sum = Vector::<R, 3>::ZERO;
-            self.nearest(seen, visible, ALIGNMENT, counts[ALIGNMENT], |k| sum += seen.velocity(k));
-            sum / self.speed
-        };
-        let directions = || {
-            let mut sum = Vector::<R, 3>::ZERO;
-            self.nearest(seen, visible, ATTRACTION, counts[ATTRACTION], |k| sum += seen.direction(k));
-            sum
-        };
         let b = self.is_b(me, draws);
         let behaviour = match (counts[AVOIDANCE] + obstacles, counts[ALIGNMENT], counts[ATTRACTION]) {
             (0, 0, 0) => Behaviour::Search,
@@ -391,16 +540,24 @@ impl<R: Scalar> BehaviourSelection<R> {
         };
         let wanted = match behaviour {
             Behaviour::Avoid => {
-                let mut sum = away;
-                for k in (0..seen.len()).filter(|&k| visible(k) >> AVOIDANCE & 1 == 1) {
-                    sum -= seen.direction(k);
+                let mut left = counts[AVOIDANCE];
+                let mut k = 0;
+                while left > 0 {
+                    if inside(sight, k, AVOIDANCE) {
+                        away -= Directions::of(seen, k);
+                        left -= 1;
+                    }
+                    k += 1;
                 }
-                sum
+                away
             }
-            Behaviour::Align => headings(),
-            Behaviour::Attract => directions(),
+            Behaviour::Align => {
+                self.sum_of_nearest::<Velocities>(seen, sight, ALIGNMENT, counts[ALIGNMENT]) / self.speed
+            }
+            Behaviour::Attract => self.sum_of_nearest::<Directions>(seen, sight, ATTRACTION, counts[ATTRACTION]),
             Behaviour::Average => {
-                let (a, b) = (headings(), directions());
+                let a = self.sum_of_nearest::<Velocities>(seen, sight, ALIGNMENT, counts[ALIGNMENT]) / self.speed;
+                let b = self.sum_of_nearest::<Directions>(seen, sight, ATTRACTION, counts[ATTRACTION]);
                 match self.control_mode {
                     Average::Unit => a.unit() + b.unit(),
                     Average::Raw => a + b,
@@ -433,6 +590,8 @@ impl<R: Scalar> BehaviourSelection<R> {
 }
 
 impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
+    const WIDE: bool = true;
+
     fn sets(&self) -> Vec<NamedSet<R, 3>> {
         let [near, middle, far] = self.bounds();
         let ring = |low: R, high: R, seen: bool| {
@@ -463,16 +622,18 @@ impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
     #[inline(always)]
     fn select(&self, heading: Vector<R, 3>, offset: &[&[R]; 3], squared: &[R], sets: &mut [u32]) -> bool {
         let [near, middle, far] = self.bounds().map(|bound| bound * bound);
+        // as `in_view`, for several percepts at a time
         let limit = cos_half(self.field_of_view.radians());
+        let limit = limit * limit.abs();
         let resting = heading.length_squared() <= R::ZERO || self.view == View::Axes;
         let behind = !self.avoid_blind;
         let count = sets.len();
         let [x, y, z] = offset.map(|o| &o[..count]);
         let squared = &squared[..count];
         for k in 0..count {
-            let distance = squared[k].root();
-            let ahead = limit * distance <= heading[0] * x[k] + heading[1] * y[k] + heading[2] * z[k];
-            let seen = ahead | (distance <= R::TINY) | resting;
+            let along = heading[0] * x[k] + heading[1] * y[k] + heading[2] * z[k];
+            let ahead = limit * squared[k] <= along * along.abs();
+            let seen = ahead | (squared[k] <= R::TINY * R::TINY) | resting;
             let (avoid, align) = (squared[k] < near, squared[k] < middle);
             let attract = squared[k] < far;
             sets[k] = u32::from(avoid & (seen | behind))
@@ -481,18 +642,18 @@ impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
         }
         true
     }
+    fn performed(&self, own: &mut [R], velocity: Vector<R, 3>) {
+        if !velocity.is_tiny() {
+            (own[THETA], own[PHI]) = Self::angles_of(velocity, own[THETA]);
+        }
+    }
     #[inline(always)]
     fn decide(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, draws: &Draws<'_>) -> Motion<R, 3> {
         match self.view {
-            View::Cone => self.decided(me, seen, |k| seen.sets[k], draws),
+            View::Cone => self.decided(me, seen, &Selected(seen.sets), draws),
             View::Axes => {
-                let (heading, angles) = (me.heading(), (me.own[THETA], me.own[PHI]));
-                let visible = |k: usize| {
-                    let hidden = seen.sets[k] != 0 && !self.sees(heading, angles, seen.offset(k));
-                    let always = if self.avoid_blind { 0 } else { 1 << AVOIDANCE };
-                    if hidden { seen.sets[k] & always } else { seen.sets[k] }
-                };
-                self.decided(me, seen, visible, draws)
+                let angles = (me.own[THETA], me.own[PHI]);
+                self.decided(me, seen, &ByAxes { law: self, seen, angles }, draws)
             }
         }
     }
@@ -630,6 +791,17 @@ mod tests {
                     assert_eq!(quick.state(id, name), slow.state(id, name), "{view} {name} {id}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn angles_follow_a_body_that_moves_otherwise_than_wanted() {
+        let mut noisy = oracle();
+        noisy.plan.groups[0].noise.execution_direction = 0.3;
+        let w = noisy.step(&[([0.0; 3], AHEAD), ([0.0, 50.0, 0.0], heading(20.0, 60.0))]);
+        for id in 0..2 {
+            let angles = ["theta", "phi"].map(|name| w.state(id, name).unwrap_or(f64::NAN));
+            close(w.velocity(id), (BehaviourSelection::heading_of(angles[0], angles[1]) * 6.0).0);
         }
     }
 }

@@ -6,7 +6,7 @@
 use crate::card::*;
 use crate::motion::*;
 use crate::parameters;
-use crate::parameters::Scalar;
+use crate::parameters::{Scalar, Value};
 use crate::physics::Contact;
 use crate::selection::{NamedSet, Perception};
 use crate::sensing::cos_half;
@@ -15,26 +15,33 @@ use space::lanes::{Lanes, Mask};
 
 /// Calibrated parameter sets, by name: `field-v1` (the defaults; field units, discrete iterations), `metre-v1` (metres and
 /// seconds; bodies collide) and `field-mill` (cohesive and weakly aligned: a large group mills).
-pub const PRESETS: &[(&str, &[(&str, f64)])] = &[
+pub const PRESETS: &[(&str, &[(&str, Value)])] = &[
     ("field-v1", &[]),
     (
         "metre-v1",
         &[
-            ("radius", 2.0),
-            ("separation_radius", 0.6),
-            ("separation", 1.0),
-            ("alignment", 3.0),
-            ("wall_distance", 0.6),
-            ("step_length", 0.05),
-            ("time_step", 0.2),
-            ("largest_turn", 1.0),
-            ("wander_deviation", 1.2),
-            ("body_radius", 0.17),
+            ("radius", Value::Number(2.0)),
+            ("separation_radius", Value::Number(0.6)),
+            ("separation", Value::Number(1.0)),
+            ("alignment", Value::Number(3.0)),
+            ("wall_distance", Value::Number(0.6)),
+            ("step_length", Value::Number(0.05)),
+            ("time_step", Value::Number(0.2)),
+            ("largest_turn", Value::Number(1.0)),
+            ("wander_deviation", Value::Number(1.2)),
+            ("body_radius", Value::Number(0.17)),
+            ("bodies_collide", Value::Truth(true)),
         ],
     ),
     (
         "field-mill",
-        &[("radius", 25.0), ("alignment", 0.5), ("cohesion", 2.0), ("step_length", 0.8), ("wander_deviation", 0.1)],
+        &[
+            ("radius", Value::Number(25.0)),
+            ("alignment", Value::Number(0.5)),
+            ("cohesion", Value::Number(2.0)),
+            ("step_length", Value::Number(0.8)),
+            ("wander_deviation", Value::Number(0.1)),
+        ],
     ),
 ];
 
@@ -71,6 +78,8 @@ parameters! {
         saturation alias "n_sat": R = 6.0, "n_sat", "1", Positive, Ours;
         /// Body radius.
         body_radius alias "rho": R = 0.5, "rho", "length", NonNegative, Ours;
+        /// Whether bodies push each other apart (walls stop them in any case).
+        bodies_collide: bool = false, "-", "-", Any, Ours;
         /// Length of a step in time.
         time_step alias "dt": R = 1.0, "Dt", "time", Positive, Ours;
     }
@@ -128,6 +137,9 @@ impl<R: Scalar> Law<R> for ControlBoids<R> {
     }
     fn contact(&self) -> Contact {
         Contact::Slide
+    }
+    fn bodies_meet(&self) -> bool {
+        self.bodies_collide
     }
 }
 
@@ -271,8 +283,19 @@ mod tests {
     #[test]
     fn the_presets_name_parameters_that_exist() {
         for (name, values) in PRESETS {
-            let values = values.iter().map(|&(key, value)| (key.to_owned(), value.into())).collect();
+            let values = values.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
             assert!(ControlBoids::<f64>::from_values(&values).is_ok(), "{name}");
+        }
+    }
+
+    #[test]
+    fn bodies_push_each_other_apart_only_where_they_collide() {
+        // both want to keep their heading, side by side at distance 0.6, twice the radius being 1
+        for (collide, distance) in [(false, 0.6), (true, 1.0)] {
+            let mut still = Oracle::new("control_boids").set("bodies_collide", collide).set("v", 0.0);
+            still = still.set("w_s", 0.0).set("w_c", 0.0);
+            let w = still.step(&[([0.0, 0.0], [0.65, 0.0]), ([0.0, 0.6], [0.65, 0.0])]);
+            assert!((w.position(1)[1] - w.position(0)[1] - distance).abs() < 1e-9, "{collide}");
         }
     }
 }

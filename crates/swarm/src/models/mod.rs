@@ -23,6 +23,7 @@ pub struct Prepared<R, const D: usize> {
     pub(crate) obstacle_reach: Option<R>,
     pub(crate) body_radius: R,
     pub(crate) contact: Contact,
+    pub(crate) bodies_meet: bool,
     pub(crate) initial_speed: R,
     /// Finishes the kernel when the stages are resolved.
     pub(crate) build: Box<dyn FnOnce(Stages<R, D>) -> Box<dyn Kernel<R, D>>>,
@@ -46,6 +47,7 @@ fn prepared<R: Scalar, const D: usize, M: Law<R>>(
         obstacle_reach: law.obstacle_reach(),
         body_radius: law.body_radius(),
         contact: law.contact(),
+        bodies_meet: law.bodies_meet(),
         initial_speed: law.initial_speed(),
         stream_reach,
         build: Box::new(move |stages| build(law, stages)),
@@ -165,6 +167,7 @@ models! {
     lists viscido_ha::ViscidoHa in [2];
     lists ha_extended::HaExtended in [2];
     lists lch_group_pose::LchGroupPose in [2, 3];
+    streams competing_flocks::CompetingFlocks in [2];
     lists behaviour_selection::BehaviourSelection in [3];
     streams control_boids::ControlBoids in [2];
     streams boids_unit_heading::BoidsUnitHeading in [2, 3];

@@ -66,6 +66,15 @@ pub fn free_of_environment<R: Real, const D: usize>(
     if obstacles.is_empty() {
         return Met::Nothing;
     }
+    // nothing can be met by a move whose end is farther from everything than the move and the body are long
+    let around = ((to - from).length() + radius) * R::of(1.000_001) + R::TINY;
+    if around <= obstacles.reach() {
+        let mut near = false;
+        obstacles.near(to, around, |_, _, _| near = true);
+        if !near {
+            return Met::Nothing;
+        }
+    }
     if obstacles.first_crossing(from, to).is_some() {
         return Met::Obstacle;
     }

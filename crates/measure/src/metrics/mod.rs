@@ -1,0 +1,67 @@
+//! The metrics: one file each, one line each in the list below. Files, tables, help and law tests are made from the
+//! list.
+
+use crate::metric::nearest_name;
+use crate::{Measure, MeasureError, Metric, MetricCard, Sample};
+use space::{Frame, GroupRange, Real};
+
+macro_rules! metrics {
+    ($($file:ident::$name:ident;)*) => {
+        $(pub mod $file;)*
+        /// The cards of all metrics, in the order of the list.
+        pub const LIST: &[&MetricCard] = &[$(&<$file::$name as Metric>::CARD),*];
+        /// All metrics with their parameters at the defaults, in the order of the list.
+        pub fn all<const D: usize>() -> Vec<Box<dyn Measure<D>>> {
+            vec![$(Box::new($file::$name::default())),*]
+        }
+    };
+}
+
+metrics! {
+    polarisation::Polarisation;
+    weighted_polarisation::WeightedPolarisation;
+    mean_angular_deviation::MeanAngularDeviation;
+    angular_momentum::AngularMomentum;
+    nearest_neighbour_distance::NearestNeighbourDistance;
+    expanse::Expanse;
+    mean_distance_to_centre::MeanDistanceToCentre;
+    median_distance_to_centre::MedianDistanceToCentre;
+    group_count::GroupCount;
+    largest_group_share::LargestGroupShare;
+    balance::Balance;
+    stragglers::Stragglers;
+    mean_speed::MeanSpeed;
+}
+
+/// The metric of an id, with its parameters at the defaults.
+///
+/// # Errors
+/// Where no metric has this id.
+pub fn find<const D: usize>(id: &str) -> Result<Box<dyn Measure<D>>, MeasureError> {
+    all::<D>().into_iter().find(|metric| metric.card().id == id).ok_or_else(|| MeasureError::UnknownMetric {
+        id: id.to_owned(),
+        nearest: nearest_name(id, LIST.iter().map(|card| card.id)),
+    })
+}
+
+/// The metric of an id over one group of a frame, or over everyone, with its parameters at the defaults.
+///
+/// For several metrics of one frame, or for other parameters, use [`find`] or [`all`] with one [`Sample`].
+///
+/// # Errors
+/// Where no metric has this id.
+pub fn compute<R: Real, const D: usize>(
+    id: &str,
+    frame: &Frame<'_, R, D>,
+    group: Option<&GroupRange>,
+) -> Result<Option<f64>, MeasureError> {
+    let metric = find::<D>(id)?;
+    let sample = group.map_or_else(|| Sample::whole(frame), |group| Sample::group(frame, group));
+    Ok(metric.on(&sample))
+}
+
+#[cfg(test)]
+pub(crate) mod sketch;
+
+#[cfg(test)]
+mod tests;
