@@ -29,12 +29,10 @@ pub fn nearest_by_all_pairs<const D: usize>(space: &Space<f64, D>, places: &[Vec
 
 /// [`nearest_distances`] over the cells of a grid. `None` where a grid cannot serve this space and these places.
 pub fn nearest_by_grid<const D: usize>(space: &Space<f64, D>, places: &[Vector<f64, D>]) -> Option<Vec<f64>> {
-    let columns = columns(places);
-    let extents = extents(space, places);
-    let across: Vec<f64> = extents.into_iter().filter(|&extent| extent > 0.0).collect();
+    let across: Vec<f64> = extents(space, places).into_iter().filter(|&extent| extent > 0.0).collect();
     let volume: f64 = across.iter().product();
     let spacing = space::Real::powf(volume / places.len() as f64, 1.0 / across.len() as f64);
-    let grid = LiveGrid::new(space, spacing, &columns)?;
+    let grid = LiveGrid::new(space, spacing, &columns(places))?;
     let mut nearest = Vec::with_capacity(places.len());
     for (i, &place) in places.iter().enumerate() {
         let (mut radius, mut least) = (spacing, f64::INFINITY);
@@ -249,6 +247,10 @@ mod tests {
         assert_eq!(linked(&space, &same, 1e-9), vec![0; 100]);
         let line: Vec<Vector<f64, 2>> = (0..100).map(|k| Vector([f64::from(k), 5.0])).collect();
         assert_eq!(nearest_by_grid(&space, &line), Some(vec![1.0; 100]));
+        let thin: Vec<Vector<f64, 2>> = line.iter().map(|p| Vector([p.0[0], 1e-9 * p.0[0]])).collect();
+        assert_eq!(nearest_by_grid(&space, &thin), Some(nearest_by_all_pairs(&space, &thin)));
+        assert_eq!(linked_by_grid(&space, &thin, 2.0), Some(vec![0; 100]));
+        assert_eq!(linked_by_grid(&Space::walled([1e-6; 2]), &line, 2.0), Some(vec![0; 100]), "beyond the walls");
         assert_eq!(nearest_distances::<2>(&space, &line[..1]), [f64::INFINITY]);
     }
 }
