@@ -80,7 +80,7 @@ impl<R: Real, const D: usize> Resources<R, D> {
             column(name)
                 .ok_or_else(|| format!("resources change the column `{name}`, which no model of this world declares"))
         };
-        if !(plan.within >= R::ZERO) {
+        if plan.within < R::ZERO || !plan.within.finite() {
             return Err(format!("the distance of consumption must be 0 or more, found {}", plan.within));
         }
         if plan.items.iter().any(|item| !item.finite()) {

@@ -77,6 +77,10 @@ mod tests {
         // someone at rest far away does not move the centre
         members[12] = ([500.0, 0.0], [0.0, 0.0]);
         close(AngularMomentum.on(&sample(Space::open(), &members)), 1.0);
-        assert_eq!(AngularMomentum.on(&sample(Space::open(), &[([0.0], [1.0]), ([1.0], [1.0])])), None, "one dimension");
+        assert_eq!(
+            AngularMomentum.on(&sample(Space::open(), &[([0.0], [1.0]), ([1.0], [1.0])])),
+            None,
+            "one dimension"
+        );
     }
 }

@@ -698,6 +698,13 @@ impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Pairs<'_, '_, R,
     }
 }
 
+/// Which lanes are neither infinite nor NaN.
+#[allow(clippy::eq_op, reason = "the difference of a number with itself is 0 unless it is infinite or not a number")]
+#[inline(always)]
+fn finite_lanes<R: Scalar, L: Lanes<R>>(value: L) -> L::Mask {
+    (value - value).less_equal(L::splat(R::ZERO))
+}
+
 /// The first `count` lanes as bits.
 #[inline(always)]
 fn mask_of(count: usize) -> u32 {
@@ -1047,11 +1054,10 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             place[a] = L::load(&view.now.position[a][row..]) + L::load(&displacement[a]);
             fine = match view.space.edges[a] {
                 Edge::Periodic(length) => fine.and(zero.less_equal(place[a])).and(place[a].less(L::splat(length))),
-                // the difference of a number with itself is 0 unless it is infinite or not a number
-                _ => fine.and((place[a] - place[a]).less_equal(zero)),
+                _ => fine.and(finite_lanes::<R, L>(place[a])),
             };
             let moving = L::load(&velocity[a]);
-            fine = fine.and((moving - moving).less_equal(zero));
+            fine = fine.and(finite_lanes::<R, L>(moving));
         }
         if fine.bits() & mask_of(count) == mask_of(count) {
             for a in 0..D {

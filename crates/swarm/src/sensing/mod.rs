@@ -59,7 +59,7 @@ impl<R: Real> Ideal<R> {
     /// A sentence that says what is wrong.
     pub fn check(&self) -> Result<(), String> {
         if let Some(range) = self.range
-            && !(range > R::ZERO)
+            && (range <= R::ZERO || !range.finite())
         {
             return Err(format!("sensing range must be more than 0, found {range}"));
         }
