@@ -1202,6 +1202,9 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Kernel<R, D> for Streamed<M, R,
     }
 }
 
+/// A percept's number while its cell is looked through: the cell among those around, and the place in it.
+const CELL_BITS: u32 = 24;
+
 /// One agent against its cells, without lists: several others are tested at a time, and met one by one.
 struct OneStreamed<'a, 'b, M, R, const D: usize> {
     kernel: &'a Streamed<M, R, D>,
@@ -1223,8 +1226,12 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
         let own = core::mem::take(&mut scratch.own);
         let me = MeLanes { velocity: velocity.0, heading: velocity.unit().0, own: &own };
         let limit = L::splat(law.reach() * law.reach());
-        let mut sums = M::Sums::<R>::zero();
-        for &(cell, shift) in grid.around(row) {
+        // first those in reach, packed without a branch for each, then their sums
+        let around = grid.around(row);
+        scratch.clear();
+        scratch.reserve(around.iter().map(|&(cell, _)| grid.cell(cell).rows.len()).sum());
+        let mut found = 0;
+        for (slot, &(cell, shift)) in around.iter().enumerate() {
             let cell = grid.cell(cell);
             let count = cell.rows.len();
             let mut first = 0;
@@ -1234,39 +1241,39 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
                     offset[a] = (L::load(&cell.position[a][first..]) + L::splat(shift.0[a])) - place[a];
                 }
                 let squared = crate::motion::dot(&offset, &offset);
-                let mut bits = squared.less(limit).bits() & mask_of(count - first);
-                if bits != 0 {
-                    let mut squares = [R::ZERO; WIDEST];
-                    squared.store(&mut squares);
-                    let mut parts = [[R::ZERO; WIDEST]; D];
-                    for a in 0..D {
-                        offset[a].store(&mut parts[a]);
-                    }
-                    while bits != 0 {
-                        let k = bits.trailing_zeros() as usize;
-                        bits &= bits - 1;
-                        let j = cell.rows[first + k] as usize;
-                        if j == row || view.dead(view.others, j) {
-                            continue;
-                        }
-                        let mut to = [R::ZERO; D];
-                        for a in 0..D {
-                            to[a] = parts[a][k];
-                        }
-                        let velocity = view.others.velocity(j);
-                        let other = Other {
-                            velocity,
-                            heading: if M::HEADINGS { velocity.unit() } else { Vector::ZERO },
-                            row: j,
-                            others: view.others,
-                            columns: &kernel.listed.stages.columns,
-                        };
-                        let sets = law.classify::<R>(&me, &to, squares[k], &other);
-                        law.gather::<R>(&mut sums, &me, &to, squares[k], &other, &sets);
-                    }
+                let bits = squared.less(limit).bits() & mask_of(count - first);
+                L::pack_numbers(((slot as u32) << CELL_BITS) + first as u32, bits, &mut scratch.row[found..]);
+                for a in 0..D {
+                    offset[a].pack(bits, &mut scratch.offset[a][found..]);
                 }
+                squared.pack(bits, &mut scratch.squared[found..]);
+                found += bits.count_ones() as usize;
                 first += L::WIDTH;
             }
+        }
+        let mut sums = M::Sums::<R>::zero();
+        for k in 0..found {
+            let number = scratch.row[k];
+            let (cell, _) = around[(number >> CELL_BITS) as usize];
+            let j = grid.cell(cell).rows[(number & ((1 << CELL_BITS) - 1)) as usize] as usize;
+            if j == row || view.dead(view.others, j) {
+                continue;
+            }
+            let mut to = [R::ZERO; D];
+            for a in 0..D {
+                to[a] = scratch.offset[a][k];
+            }
+            let squared = scratch.squared[k];
+            let velocity = view.others.velocity(j);
+            let other = Other {
+                velocity,
+                heading: if M::HEADINGS { velocity.unit() } else { Vector::ZERO },
+                row: j,
+                others: view.others,
+                columns: &kernel.listed.stages.columns,
+            };
+            let sets = law.classify::<R>(&me, &to, squared, &other);
+            law.gather::<R>(&mut sums, &me, &to, squared, &other, &sets);
         }
         scratch.own = own;
         kernel.conclude(view, row, &sums, -1.0, scratch)
