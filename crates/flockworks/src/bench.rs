@@ -281,29 +281,36 @@ impl<'a> Subject<'a> {
     }
     fn measure(&mut self) -> Result<(), Fault> {
         let steps = self.workload.steps;
-        // neighbours are counted a few times along a run, outside the measured time
-        let parts = if self.workload.is_trial() { steps.min(8) } else { 1 };
         let every = (self.workload.agents / 200).max(1);
-        let (mut wall, mut cpu, mut neighbours) = (0.0, Some(0.0), 0.0);
+        let (mut wall, mut cpu) = (0.0, Some(0.0));
         for _ in 0..self.trials {
             if self.workload.is_trial() {
                 self.world = self.workload.world(self.precision, self.threads)?;
             }
-            for part in 0..parts {
-                let (before, start) = (processor_time(), Instant::now());
+            let (before, start) = (processor_time(), Instant::now());
+            self.world.run(steps);
+            wall += start.elapsed().as_secs_f64();
+            cpu = match (cpu, before, processor_time()) {
+                (Some(sum), Some(before), Some(after)) => Some(sum + (after - before).max(0.0)),
+                _ => None,
+            };
+        }
+        // neighbours are counted a few times along a run of its own, so that counting disturbs nothing that is measured
+        let parts = if self.workload.is_trial() { steps.clamp(1, 8) } else { 1 };
+        let mut neighbours = 0.0;
+        if self.workload.is_trial() {
+            self.world = self.workload.world(self.precision, self.threads)?;
+        }
+        for part in 0..parts {
+            if self.workload.is_trial() {
                 self.world.run(steps * (part + 1) / parts - steps * part / parts);
-                wall += start.elapsed().as_secs_f64();
-                cpu = match (cpu, before, processor_time()) {
-                    (Some(sum), Some(before), Some(after)) => Some(sum + (after - before).max(0.0)),
-                    _ => None,
-                };
-                neighbours += self.world.mean_neighbours(every);
             }
+            neighbours += self.world.mean_neighbours(every);
         }
         let trials = f64::from(self.trials);
         self.wall.push(wall / trials);
         self.cpu.push(cpu.map(|cpu| cpu / trials));
-        self.neighbours.push(neighbours / trials / parts as f64);
+        self.neighbours.push(neighbours / parts as f64);
         Ok(())
     }
     fn row(&self) -> Row {

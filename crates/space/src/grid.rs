@@ -463,20 +463,22 @@ impl<R: Real, const D: usize> Grid<R, D> {
         radius: R,
         mut visit: impl FnMut(u32, Vector<R, D>, R),
     ) -> bool {
-        let Some((centre, span)) = self.layout.search(place, radius) else { return false };
         let limit = radius * radius;
-        let (low, high) = (centre[0] as isize - span[0] as isize, centre[0] as isize + span[0] as isize);
-        self.layout.each_line(centre, span, |line, shift| {
-            self.stretch(line, low, high, shift, &mut |segment: Segment<R, D>| {
-                for row in segment.first..segment.end {
-                    let offset = (columns.position(row as usize) + segment.shift) - place;
-                    let squared = offset.length_squared();
-                    if squared < limit {
-                        visit(row, offset, squared);
-                    }
+        self.each_segment(place, radius, |segment| {
+            for row in segment.first..segment.end {
+                let offset = (columns.position(row as usize) + segment.shift) - place;
+                let squared = offset.length_squared();
+                if squared < limit {
+                    visit(row, offset, squared);
                 }
-            });
-        });
+            }
+        })
+    }
+    /// As [`Self::within`], but hands out whole runs of rows that hold everyone closer than `radius`, for the caller to test.
+    pub fn each_segment(&self, place: Vector<R, D>, radius: R, mut visit: impl FnMut(Segment<R, D>)) -> bool {
+        let Some((centre, span)) = self.layout.search(place, radius) else { return false };
+        let (low, high) = (centre[0] as isize - span[0] as isize, centre[0] as isize + span[0] as isize);
+        self.layout.each_line(centre, span, |line, shift| self.stretch(line, low, high, shift, &mut visit));
         true
     }
     /// A length of the order of the distance between neighbours, to start a search for the nearest ones.

@@ -11,9 +11,9 @@ use swarm::parameters::{Value, Values};
 use swarm::physics::{Contact, DifferentialDrive, Mobility};
 use swarm::resources::{Gain, Metabolism, ResourcePlan, Respawn};
 use swarm::selection::Perception;
-use swarm::sensing::Ideal;
 use swarm::sensing::robot::Robot;
 use swarm::sensing::scanner::Scanner;
+use swarm::sensing::{Ideal, Occlusion};
 use swarm::{Driver, World, WorldPlan};
 
 fn values(pairs: &[(&str, Value)]) -> Values {
@@ -223,8 +223,10 @@ fn limits_of_ideal_sensing_hide_whom_they_say() {
     assert_eq!(run(Ideal { range: Some(3.5), ..perfect }, 0.3), 6.0, "0-1, 1-2, 0-3 both ways");
     let ahead = run(Ideal { field_of_view: Some(std::f64::consts::PI), ..perfect }, 0.3);
     assert_eq!(ahead, 6.0, "each sees those ahead of it");
-    let hidden = run(Ideal { occlusion: true, ..perfect }, 0.3);
+    let hidden = run(Ideal { occlusion: Occlusion::All, ..perfect }, 0.3);
     assert_eq!(hidden, 6.0, "only the next body on the line is seen");
+    let open = run(Ideal { occlusion: Occlusion::Obstacles, ..perfect }, 0.3);
+    assert_eq!(open, 12.0, "bodies hide nobody where only obstacles do");
     let mut blind = perfect;
     blind.noise.miss = 1.0;
     assert_eq!(run(blind, 0.3), 0.0);

@@ -86,7 +86,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         let widest = self.groups.iter().fold(R::ZERO, |w, g| w.most(g.radius));
         let same = self.groups.iter().all(|g| g.radius == widest && g.meets);
         let row_of = |rows: &[u32], id: usize| if rows.is_empty() { id } else { rows[id] as usize };
-        if agents < CELLS_FROM && same && self.rows.is_empty() {
+        if agents < CELLS_FROM && same {
             let mut places = core::mem::replace(&mut self.places, core::array::from_fn(|_| Vec::new()));
             for (places, now) in places.iter_mut().zip(&self.now.position) {
                 places.clear();
@@ -147,9 +147,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
     }
 
     /// Whether a move would end in contact with a body that it does not move away from.
-    fn touches(&self, id: usize, places: &[Vec<R>; D], limit: R) -> bool {
-        let (from, to) = (self.now.position(id), self.next.position(id));
-        (0..self.now.len()).filter(|&other| other != id).any(|other| {
+    fn touches(&self, row: usize, places: &[Vec<R>; D], limit: R) -> bool {
+        let (from, to) = (self.now.position(row), self.next.position(row));
+        (0..self.now.len()).filter(|&other| other != row).any(|other| {
             let mut place = Vector::ZERO;
             for a in 0..D {
                 place.0[a] = places[a][other];
@@ -248,7 +248,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
     }
 }
 
-/// Bodies of one radius, rows in the order of ids: every move against all places that count, several at a time.
+/// Bodies of one radius: every move, in the order of ids, against all places that count, several at a time.
 struct RefuseBodies<'a, R: Scalar, const D: usize> {
     world: &'a mut World<R, D>,
     /// Old places until a move is accepted.
@@ -267,36 +267,37 @@ impl<R: Scalar, const D: usize> Task<R> for RefuseBodies<'_, R, D> {
             let refuses = world.groups[group].contact == Contact::Refuse;
             let first = world.ranges[group].first as usize;
             for id in first..first + world.ranges[group].count as usize {
+                let row = if world.rows.is_empty() { id } else { world.rows[id] as usize };
                 if world.met[id] != Met::Nothing {
                     for a in 0..D {
-                        places[a][id] = world.next.position[a][id];
+                        places[a][row] = world.next.position[a][row];
                     }
                     continue;
                 }
-                let to = world.next.position(id);
+                let to = world.next.position(row);
                 let mut touched = false;
                 if refuses {
                     // the own old place does not count
                     for places in places.iter_mut() {
-                        places[id] = R::INFINITY;
+                        places[row] = R::INFINITY;
                     }
                     let least = if images {
                         least::<R, L, D, true>(world, places, to)
                     } else {
                         least::<R, L, D, false>(world, places, to)
                     };
-                    touched = least.less(limits).any() && world.touches(id, places, limit);
+                    touched = least.less(limits).any() && world.touches(row, places, limit);
                 }
                 if touched {
-                    let from = world.now.position(id);
-                    world.next.set_position(id, from);
+                    let from = world.now.position(row);
+                    world.next.set_position(row, from);
                     world.met[id] = Met::Member;
                     for a in 0..D {
-                        places[a][id] = from.0[a];
+                        places[a][row] = from.0[a];
                     }
                 } else {
                     for a in 0..D {
-                        places[a][id] = to.0[a];
+                        places[a][row] = to.0[a];
                     }
                 }
             }

@@ -8,8 +8,8 @@ use crate::parameters::Scalar;
 use crate::physics::Mobility;
 use crate::resources::Resources;
 use crate::selection::{self, Candidates, NamedSet, Reach};
-use crate::sensing::Ideal;
 use crate::sensing::robot::{Memory, Robot, RobotScratch};
+use crate::sensing::{Ideal, Occlusion};
 use core::ops::Range;
 use space::grid::Segment;
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
@@ -177,6 +177,13 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
     }
     fn clear(&mut self) {
         self.found = 0;
+    }
+    /// Leaves the dead out.
+    #[inline(always)]
+    fn bury(&mut self, view: &View<'_, R, D>) {
+        if view.mortality.is_some() {
+            self.retain(|s, k| !view.dead(view.others, s.row[k] as usize));
+        }
     }
     /// Keeps the percepts for which `keep` holds, in order.
     fn retain(&mut self, mut keep: impl FnMut(&Self, usize) -> bool) {
@@ -465,15 +472,24 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
     }
     fn within(&self, view: &View<'_, R, D>, row: usize, place: Vector<R, D>, radius: R, scratch: &mut Scratch<R, D>) {
-        let mut visit = |other: u32, offset: Vector<R, D>, squared: R| {
-            if other as usize != row && !view.dead(view.others, other as usize) {
-                scratch.push(other, offset, squared);
-            }
-        };
         let found = match view.index {
             Index::Pairs => false,
-            Index::Sorted(grid) => grid.within(view.others, place, radius, &mut visit),
-            Index::Live(grid) => grid.within(place, radius, &mut visit),
+            Index::Sorted(grid) => {
+                let mut segments = core::mem::take(&mut scratch.segments);
+                segments.clear();
+                let found = grid.each_segment(place, radius, |segment| segments.push(segment));
+                if found {
+                    with_lanes(level(), Meet::<R, D, false> { view, row, place, radius, segments: &segments, scratch });
+                    scratch.bury(view);
+                }
+                scratch.segments = segments;
+                found
+            }
+            Index::Live(grid) => grid.within(place, radius, |other, offset, squared| {
+                if other as usize != row && !view.dead(view.others, other as usize) {
+                    scratch.push(other, offset, squared);
+                }
+            }),
         };
         if !found {
             pairs(view, row, place, radius, scratch);
@@ -489,8 +505,8 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             let limit = crate::sensing::cos_half(opening);
             scratch.retain(|s, k| crate::motion::in_view::<R, R, D>(&heading.0, &s.at(k).0, s.squared[k], limit));
         }
-        if ideal.occlusion {
-            self.hide(view, row, scratch);
+        if ideal.occlusion != Occlusion::None {
+            self.hide(view, row, scratch, ideal.occlusion == Occlusion::All);
         }
         let noise = &ideal.noise;
         if noise.miss > R::ZERO {
@@ -541,7 +557,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
     }
     /// Drops members hidden behind nearer bodies or opaque obstacles.
-    fn hide(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) {
+    fn hide(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>, bodies: bool) {
         let place = view.now.position(row);
         let count = scratch.found;
         scratch.order.clear();
@@ -557,12 +573,13 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             let k = scratch.order[n] as usize;
             let to = scratch.at(k);
             let far = scratch.squared[k];
-            let hidden = scratch.order[..n].iter().any(|&m| {
-                let other = scratch.at(m as usize);
-                let radius = view.body_radius(view.others.id[scratch.row[m as usize] as usize]);
-                let along = (other.dot(to) / far.most(R::TINY)).clamped(R::ZERO, R::ONE);
-                scratch.squared[m as usize] < far && (other - to * along).length_squared() < radius * radius
-            });
+            let hidden = bodies
+                && scratch.order[..n].iter().any(|&m| {
+                    let other = scratch.at(m as usize);
+                    let radius = view.body_radius(view.others.id[scratch.row[m as usize] as usize]);
+                    let along = (other.dot(to) / far.most(R::TINY)).clamped(R::ZERO, R::ONE);
+                    scratch.squared[m as usize] < far && (other - to * along).length_squared() < radius * radius
+                });
             let walled = !hidden && !view.obstacles.is_empty() && view.obstacles.hides(place, place + to);
             scratch.chosen[k] = !(hidden || walled);
         }
@@ -636,15 +653,17 @@ fn turned<R: Scalar, const D: usize>(motion: Motion<R, D>, angle: R, draws: &Dra
     Motion { velocity: turn(motion.velocity), displacement: turn(motion.displacement) }
 }
 
-/// All pairs: several others at a time, each tested by itself. With `IMAGES`, displacements are made minimal.
-struct Pairs<'a, 'b, R, const D: usize, const IMAGES: bool> {
+/// Members of runs of rows closer than a radius, several at a time. With `IMAGES`, displacements are made minimal.
+struct Meet<'a, 'b, R, const D: usize, const IMAGES: bool> {
     view: &'a View<'b, R, D>,
     row: usize,
     place: Vector<R, D>,
     radius: R,
+    segments: &'a [Segment<R, D>],
     scratch: &'a mut Scratch<R, D>,
 }
 
+/// All pairs.
 fn pairs<R: Scalar, const D: usize>(
     view: &View<'_, R, D>,
     row: usize,
@@ -652,47 +671,49 @@ fn pairs<R: Scalar, const D: usize>(
     radius: R,
     scratch: &mut Scratch<R, D>,
 ) {
+    let segments = &[Segment { first: 0, end: view.others.len() as u32, shift: Vector::ZERO }];
     if view.space.is_periodic() {
-        with_lanes(level(), Pairs::<R, D, true> { view, row, place, radius, scratch });
+        with_lanes(level(), Meet::<R, D, true> { view, row, place, radius, segments, scratch });
     } else {
-        with_lanes(level(), Pairs::<R, D, false> { view, row, place, radius, scratch });
+        with_lanes(level(), Meet::<R, D, false> { view, row, place, radius, segments, scratch });
     }
-    if view.mortality.is_some() {
-        scratch.retain(|s, k| !view.dead(view.others, s.row[k] as usize));
-    }
+    scratch.bury(view);
 }
 
-impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Pairs<'_, '_, R, D, IMAGES> {
+impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Meet<'_, '_, R, D, IMAGES> {
     type Output = ();
     #[inline(always)]
     fn run<L: Lanes<R>>(self) {
-        let Self { view, row, place, radius, scratch } = self;
-        let n = view.others.len();
+        let Self { view, row, place, radius, segments, scratch } = self;
         let limit = L::splat(radius * radius);
         let me: [L; D] = splat(place);
-        scratch.reserve(n);
         let mut found = scratch.found;
-        let mut first = 0;
-        while first < n {
-            let mut offset = me;
-            for a in 0..D {
-                offset[a] = L::load(&view.others.position[a][first..]) - me[a];
-                if IMAGES {
-                    offset[a] = minimal_lanes(view.space, a, offset[a]);
+        for segment in segments {
+            let (mut first, end) = (segment.first as usize, segment.end as usize);
+            scratch.found = found;
+            scratch.reserve(end - first);
+            let shift: [L; D] = splat(segment.shift);
+            while first < end {
+                let mut offset = me;
+                for a in 0..D {
+                    offset[a] = (L::load(&view.others.position[a][first..]) + shift[a]) - me[a];
+                    if IMAGES {
+                        offset[a] = minimal_lanes(view.space, a, offset[a]);
+                    }
                 }
+                let squared = crate::motion::dot(&offset, &offset);
+                let mut bits = squared.less(limit).bits() & mask_of(end - first);
+                if row >= first && row < first + L::WIDTH {
+                    bits &= !(1 << (row - first));
+                }
+                L::pack_numbers(first as u32, bits, &mut scratch.row[found..]);
+                for a in 0..D {
+                    offset[a].pack(bits, &mut scratch.offset[a][found..]);
+                }
+                squared.pack(bits, &mut scratch.squared[found..]);
+                found += bits.count_ones() as usize;
+                first += L::WIDTH;
             }
-            let squared = crate::motion::dot(&offset, &offset);
-            let mut bits = squared.less(limit).bits() & mask_of(n - first);
-            if row >= first && row < first + L::WIDTH {
-                bits &= !(1 << (row - first));
-            }
-            L::pack_numbers(first as u32, bits, &mut scratch.row[found..]);
-            for a in 0..D {
-                offset[a].pack(bits, &mut scratch.offset[a][found..]);
-            }
-            squared.pack(bits, &mut scratch.squared[found..]);
-            found += bits.count_ones() as usize;
-            first += L::WIDTH;
         }
         scratch.found = found;
     }

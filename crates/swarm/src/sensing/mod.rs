@@ -28,6 +28,18 @@ impl<R: Real> SensingNoise<R> {
     }
 }
 
+/// What hides a member when it stands between: the line between the centres passes through it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Occlusion {
+    /// Nothing.
+    #[default]
+    None,
+    /// Opaque obstacles.
+    Obstacles,
+    /// Opaque obstacles, and the bodies of nearer members.
+    All,
+}
+
 /// Ideal sensing with its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ideal<R> {
@@ -35,8 +47,8 @@ pub struct Ideal<R> {
     pub range: Option<R>,
     /// Full opening of the cone about the heading that is sensed, rad.
     pub field_of_view: Option<R>,
-    /// A member is hidden where the line between centres passes a nearer member's body (of its radius) or an opaque obstacle.
-    pub occlusion: bool,
+    /// What hides a member.
+    pub occlusion: Occlusion,
     /// Errors.
     pub noise: SensingNoise<R>,
 }
@@ -44,14 +56,14 @@ pub struct Ideal<R> {
 impl<R: Real> Default for Ideal<R> {
     fn default() -> Self {
         let none = SensingNoise { distance: R::ZERO, direction: R::ZERO, heading: R::ZERO, miss: R::ZERO };
-        Self { range: None, field_of_view: None, occlusion: false, noise: none }
+        Self { range: None, field_of_view: None, occlusion: Occlusion::None, noise: none }
     }
 }
 
 impl<R: Real> Ideal<R> {
     /// Whether everybody is sensed exactly, so that laws may read the state itself.
     pub fn is_perfect(&self) -> bool {
-        self.range.is_none() && self.field_of_view.is_none() && !self.occlusion && !self.noise.any()
+        self.range.is_none() && self.field_of_view.is_none() && self.occlusion == Occlusion::None && !self.noise.any()
     }
     /// What can be known at load.
     ///
