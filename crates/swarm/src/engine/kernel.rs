@@ -1263,6 +1263,10 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
                 }
                 let squared = crate::motion::dot(&offset, &offset);
                 let bits = squared.less(limit).bits() & mask_of(count - first);
+                if bits == 0 {
+                    first += L::WIDTH;
+                    continue;
+                }
                 L::pack_numbers(((slot as u32) << CELL_BITS) + first as u32, bits, &mut scratch.row[found..]);
                 for a in 0..D {
                     offset[a].pack(bits, &mut scratch.offset[a][found..]);
