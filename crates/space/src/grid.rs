@@ -353,7 +353,7 @@ impl<R: Real, const D: usize> Grid<R, D> {
         });
     }
 
-    /// Cells along the first axis, and their number of rows of cells (the product of the other axes).
+    /// Number of lines of cells: the product of the cells along all axes but the first.
     #[inline(always)]
     pub fn lines(&self) -> usize {
         self.first.len().saturating_sub(1) / self.layout.cells[0]

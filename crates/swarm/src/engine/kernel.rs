@@ -905,7 +905,6 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
     }
 }
 
-const SKIP: bool = false;
 /// A law that sums neighbour by neighbour: several agents at a time against neighbours in canonical order.
 pub(crate) struct Streamed<M, R, const D: usize> {
     pub(crate) listed: Listed<Summed<M>, R, D>,
@@ -968,9 +967,6 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             let mut near = squared.less(limit);
             if j.wrapping_sub(block.first) < L::WIDTH {
                 near = near.and(L::Mask::from_bits(!(1u32 << (j - block.first))));
-            }
-            if SKIP && !near.any() {
-                continue;
             }
             let mut sets = self.law().classify::<L>(&block.me, &offset, squared, &other);
             for set in &mut sets {

@@ -86,15 +86,10 @@ impl<R: Scalar, const D: usize> World<R, D> {
     fn step_sequential(&mut self, order: Order) {
         self.obstacles.advance(self.time);
         let agents = self.now.len();
-        if self.order.len() != agents || order == Order::RoundRobin {
-            self.order.clear();
-            self.order.extend(0..agents as u32);
-        }
+        // always from the order of ids, so that a step does not depend on the one before
+        self.order.clear();
+        self.order.extend(0..agents as u32);
         if order == Order::Random {
-            // always from the order of ids, so that a step does not depend on the one before
-            for (place, id) in self.order.iter_mut().enumerate() {
-                *id = place as u32;
-            }
             shuffle(&mut self.order, self.seed, self.step);
         }
         let Some(mut scratch) = self.scratch.pop() else { return };
