@@ -1,0 +1,3 @@
+//! `lab`: files that say what they are, the run store, executors, reports. It knows nothing of HTTP.
+
+pub mod report;
