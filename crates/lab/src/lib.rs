@@ -1,3 +1,4 @@
 //! `lab`: files that say what they are, the run store, executors, reports. It knows nothing of HTTP.
 
+pub mod file;
 pub mod report;

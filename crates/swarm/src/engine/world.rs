@@ -5,13 +5,14 @@ use crate::engine::kernel::{Index, Kernel, Scratch, Sensing, Stages, View};
 use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
 use crate::models::{self, Catalogue, Models};
 use crate::motion::{Injected, Motion, Start as Completion};
-use crate::parameters::{Scalar, nearest};
+use crate::parameters::Scalar;
 use crate::physics::{Contact, Met, Mobility};
 use crate::resources::Resources;
 use crate::selection::{NamedSet, Perception, Reach};
 use crate::sensing::robot::Memory;
 use space::obstacles::Obstacles;
 use space::parallel::Workers;
+use space::spelling::nearest;
 use space::random::{Purpose, Stream as DrawStream, unit_vector};
 use space::{Column, Columns, Frame, Grid, GroupRange, LiveGrid, PADDING, Real, Space, Vector};
 
@@ -703,7 +704,7 @@ where
             Some(entry) => WorldError::Dimension { id: group.model.clone(), asked: D, works: entry.dimensions },
             None => WorldError::Model {
                 id: group.model.clone(),
-                nearest: nearest(&group.model, models::LIST.iter().map(|e| e.card.id)).unwrap_or_default(),
+                nearest: nearest(&group.model, models::LIST.iter().map(|e| e.card.id)),
             },
         }),
     }
