@@ -2,3 +2,6 @@
 
 pub mod file;
 pub mod report;
+pub mod run;
+pub mod scenario;
+pub mod store;

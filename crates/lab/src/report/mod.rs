@@ -2,6 +2,8 @@
 //!
 //! What a page shows is plain data ([`Page`]); it does not know where it comes from.
 
+pub mod of_run;
+
 /// A page.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Page {
