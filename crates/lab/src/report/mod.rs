@@ -1,6 +1,19 @@
 //! The page: one self-contained file of figures, tables and words.
 //!
-//! What a page shows is plain data ([`Page`]); it does not know where it comes from.
+//! What a page shows is plain data ([`Page`]); it does not know where it comes from. [`html`] writes it down. What can
+//! be seen without JavaScript is drawn here (charts, scenes); `page.js` adds the read-outs, the player and the
+//! downloads. The data of a figure lies in the page once, in a `<script>` element of JSON.
+
+mod chart;
+mod document;
+mod escape;
+mod number;
+mod palette;
+mod replay;
+mod scene;
+mod ticks;
+
+pub use document::html;
 
 pub mod of_run;
 
