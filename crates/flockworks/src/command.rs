@@ -3,19 +3,25 @@
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
+use crate::files::{
+    self, CompletionsOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions,
+};
 use crate::models::{ModelsOptions, models};
+use crate::run::{self, CheckOptions, ReportOptions, RunOptions};
 use crate::step::{StepOptions, step};
 use clap::{Parser, Subcommand};
 use std::io::Write;
 
-/// A laboratory for collective motion: models, steps, conformance, speed.
+/// A laboratory for collective motion: simulate, perceive, measure.
 #[derive(Parser, Debug)]
 #[command(
     name = "flockworks",
     version,
     max_term_width = 100,
     after_help = "\
-Exit codes: 0 done; 1 ran, and the answer is no (a case failed); 2 the input is wrong; 70 our fault."
+To begin: flockworks new scenario > flock.toml, then flockworks run flock.toml
+
+Exit codes: 0 done; 1 ran, and the answer is no (a case failed); 2 the input is wrong; 70 our fault;\n130 interrupted."
 )]
 pub struct Line {
     /// What to do.
@@ -26,6 +32,20 @@ pub struct Line {
 /// A command.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    /// Run a file: results, tables and a page in a folder. The same command again continues where it stopped.
+    Run(RunOptions),
+    /// Check files and run nothing: everything that is wrong, at its place.
+    Check(CheckOptions),
+    /// Print a commented file to start from.
+    New(KindOptions),
+    /// Print the JSON schema of a kind of file, for editors.
+    Schema(KindOptions),
+    /// Make the page of a complete run anew.
+    Report(ReportOptions),
+    /// Write the tables of a run in another form.
+    Export(ExportOptions),
+    /// List the metrics, or show one: definition, unit, source, parameters, edge cases.
+    Metrics(MetricsOptions),
     /// Print the state of a case after some steps, as JSON.
     Step(StepOptions),
     /// Run every case of a file and compare with the state it expects.
@@ -48,6 +68,10 @@ pub enum Command {
     /// Seeds are fixed. Times are medians after a warm-up, of runs interleaved over threads and precisions.
     #[command(verbatim_doc_comment)]
     Bench(BenchOptions),
+    /// Print completions for a shell.
+    Completions(CompletionsOptions),
+    /// Write man pages into a folder.
+    Man(ManOptions),
 }
 
 /// Runs a command; the answer is its exit code.
@@ -56,6 +80,15 @@ pub enum Command {
 /// See [`Fault`].
 pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
     match &line.command {
+        Command::Run(options) => run::run(options, out),
+        Command::Check(options) => run::check(options, out).map(|()| 0),
+        Command::New(options) => files::new(options, out).map(|()| 0),
+        Command::Schema(options) => files::schema(options, out).map(|()| 0),
+        Command::Report(options) => run::report(options, out).map(|()| 0),
+        Command::Export(options) => files::export(options, out).map(|()| 0),
+        Command::Metrics(options) => files::metrics(options, out).map(|()| 0),
+        Command::Completions(options) => files::completions(options, out).map(|()| 0),
+        Command::Man(options) => files::man(options, out).map(|()| 0),
         Command::Step(options) => step(options, out).map(|()| 0),
         Command::Conformance(options) => conformance(options, out).map(|good| u8::from(!good)),
         Command::Models(options) => models(options, out).map(|()| 0),

@@ -7,6 +7,8 @@ use std::io;
 pub enum Fault {
     /// The user's input is wrong: what, where, and what was expected.
     Input(String),
+    /// The user's input is wrong, and the text shows where in it, ready to be printed.
+    Shown(String),
     /// Ours.
     Ours(String),
     /// Nobody reads standard output any more.
@@ -17,7 +19,7 @@ impl Fault {
     /// Exit code: 2 for input, 70 for our own faults, 0 when the reader went away.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Input(_) => 2,
+            Self::Input(_) | Self::Shown(_) => 2,
             Self::Ours(_) => 70,
             Self::Closed => 0,
         }
@@ -36,6 +38,7 @@ impl core::fmt::Display for Fault {
     fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Input(text) | Self::Ours(text) => write!(out, "{text}"),
+            Self::Shown(text) => write!(out, "{}", text.trim_end()),
             Self::Closed => Ok(()),
         }
     }

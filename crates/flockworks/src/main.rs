@@ -21,9 +21,10 @@ fn main() -> ExitCode {
     match done.and_then(|code| flushed.map(|()| code)) {
         Ok(code) => ExitCode::from(code),
         Err(fault) => {
-            let text = fault.to_string();
-            if !text.is_empty() {
-                eprintln!("flockworks: {text}");
+            match &fault {
+                Fault::Closed => {}
+                Fault::Shown(_) => eprintln!("{fault}"),
+                Fault::Input(_) | Fault::Ours(_) => eprintln!("flockworks: {fault}"),
             }
             ExitCode::from(fault.code())
         }

@@ -5,6 +5,8 @@
 
 pub mod form;
 
+pub mod reference;
+pub mod schema;
 pub mod source;
 pub mod tree;
 

@@ -22,6 +22,9 @@ pub use sensing::Sensing;
 pub use start::Start;
 pub use surroundings::{Food, Obstacle, Scatter};
 
+/// A commented scenario to start from.
+pub const TEMPLATE: &str = include_str!("template.toml");
+
 words! {
     /// What kind of file it is.
     pub enum FileKind {
