@@ -196,9 +196,16 @@ pub struct Grid<R, const D: usize> {
     layout: Layout<R, D>,
     /// First row of each cell, and the number of agents at the end.
     first: Vec<u32>,
+    /// Cell of each row before the sort.
     key: Vec<u32>,
+    /// The rows before the sort, in the order after it.
     order: Vec<u32>,
-    counts: Vec<Vec<u32>>,
+    /// First cell of each part of the sort, and the number of cells at the end.
+    bound: Vec<usize>,
+    /// Rows of each part's share that stand in cells of other parts.
+    strangers: Vec<Vec<u32>>,
+    /// Number of agents in each part's cells.
+    total: Vec<u32>,
 }
 
 impl<R: Real, const D: usize> Grid<R, D> {
@@ -224,7 +231,9 @@ impl<R: Real, const D: usize> Grid<R, D> {
             first: Vec::new(),
             key: Vec::new(),
             order: Vec::new(),
-            counts: Vec::new(),
+            bound: Vec::new(),
+            strangers: Vec::new(),
+            total: Vec::new(),
         });
         grid.layout = layout;
         grid.count(from, workers);
@@ -233,79 +242,91 @@ impl<R: Real, const D: usize> Grid<R, D> {
     }
 
     /// Counting sort of the rows by cell into `order`.
+    ///
+    /// Each part owns a share of the rows as they stand, and the cells that these begin and end with: whoever has not moved far is
+    /// counted and placed by the part itself, and only the few strangers in another part's cells are handed over.
     fn count(&mut self, from: &Columns<R, D>, workers: &Workers) {
         let (agents, cells) = (from.len(), self.layout.total());
-        let parts = workers.threads();
+        let parts = if workers.threads() == 1 { 1 } else { 4 * workers.threads() };
+        let layout = &self.layout;
+        let share = |part: usize| (agents * part / parts)..(agents * (part + 1) / parts);
         self.first.resize(cells + 1, 0);
         self.key.resize(agents, 0);
         self.order.resize(agents, 0);
-        self.counts.resize_with(parts, Vec::new);
-        let layout = &self.layout;
-        let share = |part: usize, of: usize| (of * part / parts)..(of * (part + 1) / parts);
+        self.strangers.resize_with(parts, Vec::new);
+        self.total.resize(parts, 0);
+        self.bound.clear();
+        self.bound.push(0);
+        for part in 1..parts {
+            let row = share(part).start;
+            let cell = if row < agents { layout.cell(from.position(row)) } else { 0 };
+            self.bound.push(cell.max(self.bound[part - 1]));
+        }
+        self.bound.push(cells);
+        let bound = &self.bound;
+        let own = |part: usize| bound[part]..bound[part + 1];
+        let first = Shared::new(&mut self.first[..cells]);
+        let total = Shared::new(&mut self.total);
         {
             let key = Shared::new(&mut self.key);
-            let counts = Shared::new(&mut self.counts);
+            let strangers = Shared::new(&mut self.strangers);
             workers.each(parts, |_, part| {
-                // SAFETY: each part writes its own counts and its own share of the keys.
-                let count = unsafe { &mut counts.part(part..part + 1)[0] };
-                count.clear();
-                count.resize(cells, 0);
-                let rows = share(part, agents);
+                let (own, rows) = (own(part), share(part));
+                // SAFETY: each part writes its own cells, its own rows' keys, its own list and its own total.
+                let (count, keys) = unsafe { (first.part(own.clone()), key.part(rows.clone())) };
                 // SAFETY: as above.
-                let keys = unsafe { key.part(rows.clone()) };
-                for (key, row) in keys.iter_mut().zip(rows) {
+                let strangers = unsafe { &mut strangers.part(part..part + 1)[0] };
+                strangers.clear();
+                count.fill(0);
+                for (key, row) in keys.iter_mut().zip(rows.clone()) {
                     let cell = layout.cell(from.position(row));
                     *key = cell as u32;
-                    count[cell] += 1;
+                    match count.get_mut(cell.wrapping_sub(own.start)) {
+                        Some(count) => *count += 1,
+                        None => strangers.push(row as u32),
+                    }
                 }
+                // SAFETY: as above.
+                unsafe { total.write(part, (rows.len() - strangers.len()) as u32) };
             });
         }
-        // where each part's agents of each cell go: totals of cell ranges first, then the places
-        let mut totals = vec![0u32; parts];
-        {
-            let totals = Shared::new(&mut totals);
-            let counts = &self.counts;
+        let (key, strangers) = (&self.key, &self.strangers);
+        if parts > 1 {
             workers.each(parts, |_, part| {
-                let range = share(part, cells);
-                let sum = counts.iter().map(|count| count[range.clone()].iter().sum::<u32>()).sum();
-                // SAFETY: each part writes its own total.
-                unsafe { totals.write(part, sum) };
-            });
-        }
-        {
-            let first = Shared::new(&mut self.first);
-            let counts: Vec<Shared<'_, u32>> = self.counts.iter_mut().map(|c| Shared::new(c)).collect();
-            let totals = &totals;
-            workers.each(parts, |_, part| {
-                let range = share(part, cells);
-                let mut place: u32 = totals[..part].iter().sum();
-                // SAFETY: each part owns its range of cells, in `first` and in every part's counts.
-                let first = unsafe { first.part(range.clone()) };
-                let mut slices: Vec<&mut [u32]> = counts.iter().map(|c| unsafe { c.part(range.clone()) }).collect();
-                for cell in 0..first.len() {
-                    first[cell] = place;
-                    for slice in &mut slices {
-                        let here = slice[cell];
-                        slice[cell] = place;
-                        place += here;
+                let own = own(part);
+                // SAFETY: each part writes its own cells and its own total.
+                let (count, total) = unsafe { (first.part(own.clone()), &mut total.part(part..part + 1)[0]) };
+                for &row in strangers.iter().flatten() {
+                    if let Some(count) = count.get_mut((key[row as usize] as usize).wrapping_sub(own.start)) {
+                        *count += 1;
+                        *total += 1;
                     }
                 }
             });
         }
-        self.first[cells] = agents as u32;
         let order = Shared::new(&mut self.order);
-        let counts = Shared::new(&mut self.counts);
-        let key = &self.key;
+        let total = &self.total;
         workers.each(parts, |_, part| {
-            // SAFETY: each part writes its own counts, and the places they hand out are used once.
-            let place = unsafe { &mut counts.part(part..part + 1)[0] };
-            for row in share(part, agents) {
-                let cell = key[row] as usize;
-                // SAFETY: as above.
-                unsafe { order.write(place[cell] as usize, row as u32) };
-                place[cell] += 1;
+            let own = own(part);
+            // SAFETY: each part writes its own cells.
+            let first = unsafe { first.part(own.clone()) };
+            // every cell's end, which becomes its beginning as the rows are placed from the last to the first
+            let mut end: u32 = total[..part].iter().sum();
+            for cell in first.iter_mut() {
+                end += *cell;
+                *cell = end;
             }
+            let mut place = |row: usize| {
+                if let Some(first) = first.get_mut((key[row] as usize).wrapping_sub(own.start)) {
+                    *first -= 1;
+                    // SAFETY: the places of each part's cells are handed out once, by it.
+                    unsafe { order.write(*first as usize, row as u32) };
+                }
+            };
+            share(part).rev().for_each(&mut place);
+            strangers.iter().flatten().for_each(|&row| place(row as usize));
         });
+        self.first[cells] = agents as u32;
     }
 
     /// Puts each cell's rows in the order of their ids and copies the columns.
@@ -313,7 +334,7 @@ impl<R: Real, const D: usize> Grid<R, D> {
         let (agents, cells) = (from.len(), self.layout.total());
         // a few thousand rows at a time stay in the cache for all columns
         let tasks = (agents / 4096).max(workers.threads() * 4).min(cells);
-        let first = &self.first;
+        let (first, key) = (&self.first, &self.key);
         let order = Shared::new(&mut self.order);
         let id = Shared::new(&mut to.id);
         let position = to.position.each_mut().map(|c| Shared::new(c));
@@ -324,12 +345,24 @@ impl<R: Real, const D: usize> Grid<R, D> {
             let rows = first[range.start] as usize..first[range.end] as usize;
             debug_assert!(rows.end <= agents);
             // SAFETY: tasks own disjoint ranges of cells and therefore of rows.
-            let order = unsafe { order.part(rows.clone()) };
-            for cell in range {
-                let members = (first[cell] as usize - rows.start)..(first[cell + 1] as usize - rows.start);
-                if members.len() > 1 {
-                    sort_by_id(&mut order[members], &from.id);
+            let (order, id) = unsafe { (order.part(rows.clone()), id.part(rows.clone())) };
+            for (id, &row) in id.iter_mut().zip(order.iter()) {
+                *id = from.id[row as usize];
+            }
+            // few move to another cell in a step, so most cells are in order already
+            let mut k = 1;
+            while k < order.len() {
+                let cell = key[order[k] as usize];
+                if cell == key[order[k - 1] as usize] && id[k] < id[k - 1] {
+                    let cell = cell as usize;
+                    let members = (first[cell] as usize - rows.start)..(first[cell + 1] as usize - rows.start);
+                    k = members.end;
+                    sort_by_id(&mut order[members.clone()], &from.id);
+                    for member in members {
+                        id[member] = from.id[order[member] as usize];
+                    }
                 }
+                k += 1;
             }
             let copy = |from: &[R], to: &Shared<'_, R>| {
                 // SAFETY: as above.
@@ -344,11 +377,6 @@ impl<R: Real, const D: usize> Grid<R, D> {
             }
             for (from, to) in from.state.iter().zip(&state) {
                 copy(from, to);
-            }
-            // SAFETY: as above.
-            let id = unsafe { id.part(rows) };
-            for (place, &row) in id.iter_mut().zip(order.iter()) {
-                *place = from.id[row as usize];
             }
         });
     }

@@ -211,6 +211,7 @@ pub(crate) struct Writer<'a, R, const D: usize> {
     memory: Shared<'a, Memory<R>>,
     /// Whether a row's move is known to meet neither wall nor obstacle.
     clear: Shared<'a, bool>,
+    id: Shared<'a, u32>,
     position: [Shared<'a, R>; D],
     velocity: [Shared<'a, R>; D],
     state: Vec<Shared<'a, R>>,
@@ -221,9 +222,24 @@ impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
         Self {
             memory: Shared::new(memory),
             clear: Shared::new(clear),
+            id: Shared::new(&mut columns.id),
             position: columns.position.each_mut().map(|c| Shared::new(c)),
             velocity: columns.velocity.each_mut().map(|c| Shared::new(c)),
             state: columns.state.iter_mut().map(|c| Shared::new(c)).collect(),
+        }
+    }
+    /// Begins rows with what no kernel needs to write: ids and declared columns stay as they are.
+    ///
+    /// # Safety
+    /// No other worker writes these rows.
+    pub(crate) unsafe fn keep(&self, now: &Columns<R, D>, rows: Range<usize>) {
+        // SAFETY: the caller's promise; rows are in bounds.
+        unsafe {
+            self.clear.part(rows.clone()).fill(false);
+            self.id.part(rows.clone()).copy_from_slice(&now.id[rows.clone()]);
+            for (to, from) in self.state.iter().zip(&now.state) {
+                to.part(rows.clone()).copy_from_slice(&from[rows.clone()]);
+            }
         }
     }
     /// # Safety

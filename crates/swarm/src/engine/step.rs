@@ -30,29 +30,24 @@ impl<R: Scalar, const D: usize> World<R, D> {
     /// All read the frame at `t`; the whole next frame is written at once.
     fn step_synchronous(&mut self) {
         self.obstacles.advance(self.time);
-        if !self.declared.is_empty() {
-            // columns that nobody writes keep their values
-            for (to, from) in self.next.state.iter_mut().zip(&self.now.state) {
-                to.copy_from_slice(from);
-            }
-        }
-        let mut next = core::mem::replace(&mut self.next, space::Columns::new(0, 0));
+        let mut next = core::mem::replace(&mut self.next, space::Columns::nothing());
         let mut memory = core::mem::take(&mut self.memory);
         let mut clear = core::mem::take(&mut self.clear);
-        clear.fill(false);
         let mut scratch = core::mem::take(&mut self.scratch);
         {
-            next.id.copy_from_slice(&self.now.id);
             let view = self.view();
             let out = Writer::new(&mut next, &mut memory, &mut clear);
             let worker_scratch = space::parallel::Shared::new(&mut scratch);
             let rows = self.now.len();
             let threads = self.workers.threads();
-            let tasks = if threads == 1 { 1 } else { (rows / 16).clamp(1, threads * 8) };
+            // many, so that nobody waits long for the last one, but none so short that its beginning costs more than the rest
+            let tasks = if threads == 1 { 1 } else { (rows / 16).min((rows / 1024).max(threads * 8)).max(1) };
             self.workers.each(tasks, |worker, task| {
                 // SAFETY: a worker runs one task at a time.
                 let scratch = unsafe { &mut worker_scratch.part(worker..worker + 1)[0] };
                 let part = (rows * task / tasks)..(rows * (task + 1) / tasks);
+                // SAFETY: tasks own disjoint rows.
+                unsafe { out.keep(&self.now, part.clone()) };
                 for group in &self.groups {
                     group.kernel.sweep(&view, part.clone(), &out, scratch);
                 }
