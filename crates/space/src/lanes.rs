@@ -333,13 +333,15 @@ pub fn level() -> Level {
 
 #[cfg(target_arch = "x86_64")]
 fn processor() -> Level {
-    if std::is_x86_feature_detected!("avx512f")
+    let counts_bits = std::is_x86_feature_detected!("popcnt");
+    if counts_bits
+        && std::is_x86_feature_detected!("avx512f")
         && std::is_x86_feature_detected!("avx512vl")
         && std::is_x86_feature_detected!("avx512dq")
         && std::is_x86_feature_detected!("avx512bw")
     {
         Level::Avx512
-    } else if std::is_x86_feature_detected!("avx2") {
+    } else if counts_bits && std::is_x86_feature_detected!("avx2") {
         Level::Avx2
     } else {
         Level::Portable
@@ -389,12 +391,12 @@ mod x86 {
     use core::arch::x86_64::*;
     use core::ops::{Add, Div, Mul, Neg, Sub};
 
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,popcnt")]
     pub(super) fn avx512<R: Real, T: Task<R>>(task: T) -> T::Output {
         task.run::<R::Avx512>()
     }
 
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,popcnt")]
     pub(super) fn avx2<R: Real, T: Task<R>>(task: T) -> T::Output {
         task.run::<R::Avx2>()
     }

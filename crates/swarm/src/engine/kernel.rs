@@ -703,16 +703,23 @@ impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Meet<'_, '_, R, 
         let Self { view, row, place, radius, segments, scratch } = self;
         let limit = L::splat(radius * radius);
         let me: [L; D] = splat(place);
-        let mut found = scratch.found;
         for segment in segments {
             let (mut first, end) = (segment.first as usize, segment.end as usize);
-            scratch.found = found;
             scratch.reserve(end - first);
+            let Scratch { found, row: rows, offset: offsets, squared: squares, .. } = &mut *scratch;
+            // slices of their own, which stay in registers
+            let mut position = [&[][..]; D];
+            for a in 0..D {
+                position[a] = &view.others.position[a][..end + PADDING];
+            }
+            let (rows, squares) = (&mut rows[..], &mut squares[..]);
+            let offsets = &mut offsets.each_mut().map(|o| &mut o[..]);
             let shift: [L; D] = splat(segment.shift);
+            let mut count = *found;
             while first < end {
                 let mut offset = me;
                 for a in 0..D {
-                    offset[a] = (L::load(&view.others.position[a][first..]) + shift[a]) - me[a];
+                    offset[a] = (L::load(&position[a][first..]) + shift[a]) - me[a];
                     if IMAGES {
                         offset[a] = minimal_lanes(view.space, a, offset[a]);
                     }
@@ -722,16 +729,16 @@ impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Meet<'_, '_, R, 
                 if row >= first && row < first + L::WIDTH {
                     bits &= !(1 << (row - first));
                 }
-                L::pack_numbers(first as u32, bits, &mut scratch.row[found..]);
+                L::pack_numbers(first as u32, bits, &mut rows[count..]);
                 for a in 0..D {
-                    offset[a].pack(bits, &mut scratch.offset[a][found..]);
+                    offset[a].pack(bits, &mut offsets[a][count..]);
                 }
-                squared.pack(bits, &mut scratch.squared[found..]);
-                found += bits.count_ones() as usize;
+                squared.pack(bits, &mut squares[count..]);
+                count += bits.count_ones() as usize;
                 first += L::WIDTH;
             }
+            *found = count;
         }
-        scratch.found = found;
     }
 }
 
@@ -784,7 +791,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         let selected = stages.own_sets && {
             let offset = firsts(&scratch.offset, scratch.found);
             let squared = &scratch.squared[..scratch.found];
-            self.law.select(view.now.velocity(row).unit(), &offset, squared, &mut scratch.sets)
+            self.law.select(&stages.sets, view.now.velocity(row).unit(), &offset, squared, &mut scratch.sets)
         };
         if !selected {
             stages.select(view, row, scratch, indirect);
