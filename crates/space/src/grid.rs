@@ -160,29 +160,45 @@ impl<R: Real, const D: usize> Layout<R, D> {
         }
         Some((centre, span))
     }
-    /// The cells around a cell in canonical order, each with the shift of its rows.
-    fn cells_around(&self, centre: [usize; D], span: [usize; D], to: &mut Vec<(u32, Vector<R, D>)>) {
+    /// The part of a line from cell `low` to cell `high` (unwrapped) as runs of cells of that line, each with the shift of its rows.
+    #[inline(always)]
+    fn runs(
+        &self,
+        low: isize,
+        high: isize,
+        shift: Vector<R, D>,
+        mut visit: impl FnMut(core::ops::Range<usize>, Vector<R, D>),
+    ) {
         let cells = self.cells[0] as isize;
-        self.each_line(centre, span, |line, mut shift| {
-            let base = line * self.cells[0];
-            for step in -(span[0] as isize)..=span[0] as isize {
-                let mut c = centre[0] as isize + step;
-                shift.0[0] = R::ZERO;
-                if c < 0 || c >= cells {
-                    match self.period[0] {
-                        Some(period) if c < 0 => {
-                            c += cells;
-                            shift.0[0] = -period;
-                        }
-                        Some(period) => {
-                            c -= cells;
-                            shift.0[0] = period;
-                        }
-                        None => continue,
-                    }
+        let mut part = |from: isize, to: isize, by: R| {
+            let mut shift = shift;
+            shift.0[0] = by;
+            visit(from as usize..to as usize + 1, shift);
+        };
+        match self.period[0] {
+            Some(period) => {
+                if low < 0 {
+                    part(low + cells, cells - 1, -period);
                 }
-                to.push(((base + c as usize) as u32, shift));
+                part(low.max(0), high.min(cells - 1), R::ZERO);
+                if high >= cells {
+                    part(0, high - cells, period);
+                }
             }
+            None => part(low.max(0), high.min(cells - 1), R::ZERO),
+        }
+    }
+    /// The runs of cells around a place, in canonical order: their line, the cells in it, and the shift of their rows.
+    #[inline(always)]
+    fn each_run(
+        &self,
+        centre: [usize; D],
+        span: [usize; D],
+        mut visit: impl FnMut(usize, core::ops::Range<usize>, Vector<R, D>),
+    ) {
+        let (low, high) = (centre[0] as isize - span[0] as isize, centre[0] as isize + span[0] as isize);
+        self.each_line(centre, span, |line, shift| {
+            self.runs(low, high, shift, |cells, shift| visit(line, cells, shift));
         });
     }
     fn total(&self) -> usize {
@@ -454,31 +470,13 @@ impl<R: Real, const D: usize> Grid<R, D> {
         shift: Vector<R, D>,
         visit: &mut impl FnMut(Segment<R, D>),
     ) {
-        let cells = self.layout.cells[0] as isize;
         let base = line * self.layout.cells[0];
-        let mut part = |from: isize, to: isize, by: Option<R>| {
-            let first = self.first[base + from as usize];
-            let end = self.first[base + to as usize + 1];
+        self.layout.runs(low, high, shift, |cells, shift| {
+            let (first, end) = (self.first[base + cells.start], self.first[base + cells.end]);
             if end > first {
-                let mut shift = shift;
-                if let Some(by) = by {
-                    shift.0[0] = by;
-                }
                 visit(Segment { first, end, shift });
             }
-        };
-        match self.layout.period[0] {
-            Some(period) => {
-                if low < 0 {
-                    part(low + cells, cells - 1, Some(-period));
-                }
-                part(low.max(0), high.min(cells - 1), None);
-                if high >= cells {
-                    part(0, high - cells, Some(period));
-                }
-            }
-            None => part(low.max(0), high.min(cells - 1), None),
-        }
+        });
     }
     /// Calls `visit(row, offset, squared distance)` for every agent closer than `radius` to a place, the agent at the
     /// place included. In canonical order while the radius is at most the grid's reach.
@@ -522,40 +520,74 @@ impl<R: Real, const D: usize> Grid<R, D> {
 pub struct LiveGrid<R, const D: usize> {
     layout: Layout<R, D>,
     reach: R,
-    cells: Vec<LiveCell<R, D>>,
+    lines: Vec<Line<R, D>>,
     cell_of: Vec<u32>,
-    /// The cells around each cell with their shifts, for the grid's own reach: `around[first[c]..first[c + 1]]`.
-    around: Vec<(u32, Vector<R, D>)>,
+    /// The runs of cells around each cell, for the grid's own reach: `around[first[c]..first[c + 1]]`.
+    around: Vec<Run<R, D>>,
     first: Vec<u32>,
 }
 
-/// The agents in a cell, with copies of their positions side by side.
-#[derive(Clone, Debug)]
-pub struct LiveCell<R, const D: usize> {
-    /// Rows, ascending.
-    pub rows: Vec<u32>,
-    /// Their positions, `[D][rows]`, with [`PADDING`] places more at the end.
-    pub position: [Vec<R>; D],
+/// A run of cells in one line of a [`LiveGrid`].
+#[derive(Clone, Copy, Debug)]
+pub struct Run<R, const D: usize> {
+    line: u32,
+    /// First cell in the line, and the one after the last.
+    cells: [u32; 2],
+    /// To be added to the positions of its agents.
+    pub shift: Vector<R, D>,
 }
 
-impl<R: Real, const D: usize> LiveCell<R, D> {
-    fn empty() -> Self {
-        Self { rows: Vec::new(), position: core::array::from_fn(|_| vec![R::ZERO; PADDING]) }
+/// The agents in a line of cells, cell by cell, with copies of their positions side by side.
+#[derive(Clone, Debug)]
+struct Line<R, const D: usize> {
+    /// Rows, ascending inside a cell, with [`PADDING`] places more at the end.
+    rows: Vec<u32>,
+    /// Their positions, `[D][rows]`, as long.
+    position: [Vec<R>; D],
+    /// First place of each cell, and the number of agents at the end.
+    first: Vec<u32>,
+}
+
+/// The agents in a run of cells: the first `count` of these columns, which are [`PADDING`] places longer at least.
+#[derive(Clone, Copy, Debug)]
+pub struct Members<'a, R, const D: usize> {
+    /// Number of agents.
+    pub count: usize,
+    /// Their rows, in canonical order.
+    pub rows: &'a [u32],
+    /// Their positions.
+    pub position: [&'a [R]; D],
+}
+
+impl<R: Real, const D: usize> Line<R, D> {
+    fn empty(cells: usize) -> Self {
+        Self {
+            rows: vec![0; PADDING],
+            position: core::array::from_fn(|_| vec![R::ZERO; PADDING]),
+            first: vec![0; cells + 1],
+        }
     }
-    fn insert(&mut self, row: u32, place: Vector<R, D>) {
-        let at = self.rows.partition_point(|&other| other < row);
+    /// Where a row stands in a cell, or would.
+    #[inline(always)]
+    fn find(&self, cell: usize, row: u32) -> usize {
+        let (first, end) = (self.first[cell] as usize, self.first[cell + 1] as usize);
+        first + self.rows[first..end].partition_point(|&other| other < row)
+    }
+    fn insert(&mut self, cell: usize, row: u32, place: Vector<R, D>) {
+        let at = self.find(cell, row);
         self.rows.insert(at, row);
         for a in 0..D {
             self.position[a].insert(at, place.0[a]);
         }
+        self.first[cell + 1..].iter_mut().for_each(|first| *first += 1);
     }
-    fn remove(&mut self, row: u32) {
-        if let Ok(at) = self.rows.binary_search(&row) {
-            self.rows.remove(at);
-            for a in 0..D {
-                self.position[a].remove(at);
-            }
+    fn remove(&mut self, cell: usize, row: u32) {
+        let at = self.find(cell, row);
+        self.rows.remove(at);
+        for a in 0..D {
+            self.position[a].remove(at);
         }
+        self.first[cell + 1..].iter_mut().for_each(|first| *first -= 1);
     }
 }
 
@@ -565,10 +597,11 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
     pub fn new(space: &Space<R, D>, reach: R, columns: &Columns<R, D>) -> Option<Self> {
         let (low, high) = bounds(columns);
         let layout = Layout::new(space, reach, columns.len(), low, high, 1.0)?;
+        let width = layout.cells[0];
         let mut grid = Self {
             layout,
             reach,
-            cells: vec![LiveCell::empty(); layout.total()],
+            lines: vec![Line::empty(width); layout.total() / width],
             cell_of: Vec::new(),
             around: Vec::new(),
             first: vec![0],
@@ -576,7 +609,7 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
         for row in 0..columns.len() {
             let cell = layout.cell(columns.position(row));
             grid.cell_of.push(cell as u32);
-            grid.cells[cell].insert(row as u32, columns.position(row));
+            grid.lines[cell / width].insert(cell % width, row as u32, columns.position(row));
         }
         for cell in 0..layout.total() {
             let mut centre = [0; D];
@@ -585,7 +618,10 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
                 centre[a] = rest % layout.cells[a];
                 rest /= layout.cells[a];
             }
-            layout.cells_around(centre, layout.span, &mut grid.around);
+            layout.each_run(centre, layout.span, |line, cells, shift| {
+                let cells = [cells.start as u32, cells.end as u32];
+                grid.around.push(Run { line: line as u32, cells, shift });
+            });
             grid.first.push(grid.around.len() as u32);
         }
         Some(grid)
@@ -594,19 +630,22 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
     #[inline]
     pub fn follow(&mut self, row: usize, place: Vector<R, D>) {
         let (old, new) = (self.cell_of[row] as usize, self.layout.cell(place));
-        if old != new {
-            self.cells[old].remove(row as u32);
-            self.cells[new].insert(row as u32, place);
-            self.cell_of[row] = new as u32;
-        } else if let Ok(at) = self.cells[new].rows.binary_search(&(row as u32)) {
+        let width = self.layout.cells[0];
+        if old == new {
+            let line = &mut self.lines[new / width];
+            let at = line.find(new % width, row as u32);
             for a in 0..D {
-                self.cells[new].position[a][at] = place.0[a];
+                line.position[a][at] = place.0[a];
             }
+        } else {
+            self.lines[old / width].remove(old % width, row as u32);
+            self.lines[new / width].insert(new % width, row as u32, place);
+            self.cell_of[row] = new as u32;
         }
     }
-    /// The cells around a row in canonical order for the grid's own reach, each with the shift of its rows.
+    /// The runs of cells around a row in canonical order for the grid's own reach.
     #[inline(always)]
-    pub fn around(&self, row: usize) -> &[(u32, Vector<R, D>)] {
+    pub fn around(&self, row: usize) -> &[Run<R, D>] {
         let cell = self.cell_of[row] as usize;
         &self.around[self.first[cell] as usize..self.first[cell + 1] as usize]
     }
@@ -615,28 +654,33 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
     pub fn reach(&self) -> R {
         self.reach
     }
-    /// The agents in a cell.
+    /// The agents in a run of cells.
     #[inline(always)]
-    pub fn cell(&self, cell: u32) -> &LiveCell<R, D> {
-        &self.cells[cell as usize]
+    pub fn members(&self, run: &Run<R, D>) -> Members<'_, R, D> {
+        let line = &self.lines[run.line as usize];
+        let (first, end) = (line.first[run.cells[0] as usize] as usize, line.first[run.cells[1] as usize] as usize);
+        let mut position = [&[][..]; D];
+        for a in 0..D {
+            position[a] = &line.position[a][first..];
+        }
+        Members { count: end - first, rows: &line.rows[first..], position }
     }
     /// As [`Grid::within`], with the positions that this grid followed.
     pub fn within(&self, place: Vector<R, D>, radius: R, mut visit: impl FnMut(u32, Vector<R, D>, R)) -> bool {
         let Some((centre, span)) = self.layout.search(place, radius) else { return false };
-        let mut cells = Vec::new();
-        self.layout.cells_around(centre, span, &mut cells);
         let limit = radius * radius;
-        for (cell, shift) in cells {
-            let cell = self.cell(cell);
-            for (at, &row) in cell.rows.iter().enumerate() {
-                let other = Vector(core::array::from_fn(|a| cell.position[a][at]));
+        self.layout.each_run(centre, span, |line, cells, shift| {
+            let cells = [cells.start as u32, cells.end as u32];
+            let members = self.members(&Run { line: line as u32, cells, shift });
+            for at in 0..members.count {
+                let other = Vector(core::array::from_fn(|a| members.position[a][at]));
                 let offset = (other + shift) - place;
                 let squared = offset.length_squared();
                 if squared < limit {
-                    visit(row, offset, squared);
+                    visit(members.rows[at], offset, squared);
                 }
             }
-        }
+        });
         true
     }
 }

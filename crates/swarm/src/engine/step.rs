@@ -6,6 +6,7 @@ use crate::engine::world::World;
 use crate::motion::Motion;
 use crate::parameters::Scalar;
 use crate::physics::{Contact, Met};
+use space::lanes::{Lanes, Task, level, with_lanes};
 use space::random::{Purpose, uniform, uniforms};
 
 impl<R: Scalar, const D: usize> World<R, D> {
@@ -85,7 +86,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.order.clear();
         self.order.extend(0..agents as u32);
         if order == Order::Random {
-            shuffle(&mut self.order, self.seed, self.step);
+            with_lanes(level(), Shuffle { order: &mut self.order, seed: self.seed, step: self.step });
         }
         let Some(mut scratch) = self.scratch.pop() else { return };
         let sequence = core::mem::take(&mut self.order);
@@ -223,18 +224,32 @@ impl<R: Scalar, const D: usize> World<R, D> {
 }
 
 /// Fisher and Yates, with draws for this step alone, made several at a time.
-fn shuffle(order: &mut [u32], seed: u64, step: u64) {
-    const TOGETHER: usize = 16;
-    let mut last = order.len().saturating_sub(1);
-    while last > 0 {
-        let slots: [u32; TOGETHER] = core::array::from_fn(|k| (last.saturating_sub(k) as u32).wrapping_mul(8) + 7);
-        for draw in uniforms(seed, Purpose::Environment, step, &slots) {
-            if last == 0 {
-                return;
+struct Shuffle<'a> {
+    order: &'a mut [u32],
+    seed: u64,
+    step: u64,
+}
+
+impl Task<f64> for Shuffle<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes<f64>>(self) {
+        const TOGETHER: usize = 16;
+        let Self { order, seed, step } = self;
+        let mut last = order.len().saturating_sub(1);
+        while last > 0 {
+            let mut slots = [0; TOGETHER];
+            for k in 0..TOGETHER {
+                slots[k] = (last.saturating_sub(k) as u32).wrapping_mul(8) + 7;
             }
-            let other = (draw * (last as f64 + 1.0)) as usize;
-            order.swap(last, other.min(last));
-            last -= 1;
+            for draw in uniforms(seed, Purpose::Environment, step, &slots) {
+                if last == 0 {
+                    return;
+                }
+                let other = (draw * (last as f64 + 1.0)) as usize;
+                order.swap(last, other.min(last));
+                last -= 1;
+            }
         }
     }
 }
