@@ -102,8 +102,9 @@ pub fn linked_by_grid<const D: usize>(
     // the parent of a place never stands after it: the root of a tree is its first place
     let mut parent: Vec<usize> = (0..places.len()).collect();
     for (i, &place) in places.iter().enumerate() {
-        for &(cell, _) in grid.around(i) {
-            for j in grid.cell(cell).rows.iter().map(|&row| row as usize).take_while(|&j| j < i) {
+        for run in grid.around(i) {
+            let members = grid.members(run);
+            for j in members.rows[..members.count].iter().map(|&row| row as usize).filter(|&j| j < i) {
                 if are_linked(space, place, places[j], distance) {
                     let (a, b) = (root(&mut parent, i), root(&mut parent, j));
                     parent[a.max(b)] = a.min(b);

@@ -34,6 +34,11 @@ impl<R: Real, const D: usize> Columns<R, D> {
             state: (0..columns).map(|_| zeros()).collect(),
         }
     }
+    /// Nothing at all, not even padding: stands in for columns that are in use elsewhere. Nothing is allocated.
+    pub fn nothing() -> Self {
+        let nothing = || core::array::from_fn(|_| Vec::new());
+        Self { agents: 0, position: nothing(), velocity: nothing(), id: Vec::new(), state: Vec::new() }
+    }
     /// Number of agents.
     #[inline(always)]
     pub fn len(&self) -> usize {

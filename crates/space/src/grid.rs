@@ -160,29 +160,45 @@ impl<R: Real, const D: usize> Layout<R, D> {
         }
         Some((centre, span))
     }
-    /// The cells around a cell in canonical order, each with the shift of its rows.
-    fn cells_around(&self, centre: [usize; D], span: [usize; D], to: &mut Vec<(u32, Vector<R, D>)>) {
+    /// The part of a line from cell `low` to cell `high` (unwrapped) as runs of cells of that line, each with the shift of its rows.
+    #[inline(always)]
+    fn runs(
+        &self,
+        low: isize,
+        high: isize,
+        shift: Vector<R, D>,
+        mut visit: impl FnMut(core::ops::Range<usize>, Vector<R, D>),
+    ) {
         let cells = self.cells[0] as isize;
-        self.each_line(centre, span, |line, mut shift| {
-            let base = line * self.cells[0];
-            for step in -(span[0] as isize)..=span[0] as isize {
-                let mut c = centre[0] as isize + step;
-                shift.0[0] = R::ZERO;
-                if c < 0 || c >= cells {
-                    match self.period[0] {
-                        Some(period) if c < 0 => {
-                            c += cells;
-                            shift.0[0] = -period;
-                        }
-                        Some(period) => {
-                            c -= cells;
-                            shift.0[0] = period;
-                        }
-                        None => continue,
-                    }
+        let mut part = |from: isize, to: isize, by: R| {
+            let mut shift = shift;
+            shift.0[0] = by;
+            visit(from as usize..to as usize + 1, shift);
+        };
+        match self.period[0] {
+            Some(period) => {
+                if low < 0 {
+                    part(low + cells, cells - 1, -period);
                 }
-                to.push(((base + c as usize) as u32, shift));
+                part(low.max(0), high.min(cells - 1), R::ZERO);
+                if high >= cells {
+                    part(0, high - cells, period);
+                }
             }
+            None => part(low.max(0), high.min(cells - 1), R::ZERO),
+        }
+    }
+    /// The runs of cells around a place, in canonical order: their line, the cells in it, and the shift of their rows.
+    #[inline(always)]
+    fn each_run(
+        &self,
+        centre: [usize; D],
+        span: [usize; D],
+        mut visit: impl FnMut(usize, core::ops::Range<usize>, Vector<R, D>),
+    ) {
+        let (low, high) = (centre[0] as isize - span[0] as isize, centre[0] as isize + span[0] as isize);
+        self.each_line(centre, span, |line, shift| {
+            self.runs(low, high, shift, |cells, shift| visit(line, cells, shift));
         });
     }
     fn total(&self) -> usize {
@@ -196,9 +212,16 @@ pub struct Grid<R, const D: usize> {
     layout: Layout<R, D>,
     /// First row of each cell, and the number of agents at the end.
     first: Vec<u32>,
+    /// Cell of each row before the sort.
     key: Vec<u32>,
+    /// The rows before the sort, in the order after it.
     order: Vec<u32>,
-    counts: Vec<Vec<u32>>,
+    /// First cell of each part of the sort, and the number of cells at the end.
+    bound: Vec<usize>,
+    /// Rows of each part's share that stand in cells of other parts.
+    strangers: Vec<Vec<u32>>,
+    /// Number of agents in each part's cells.
+    total: Vec<u32>,
 }
 
 impl<R: Real, const D: usize> Grid<R, D> {
@@ -224,7 +247,9 @@ impl<R: Real, const D: usize> Grid<R, D> {
             first: Vec::new(),
             key: Vec::new(),
             order: Vec::new(),
-            counts: Vec::new(),
+            bound: Vec::new(),
+            strangers: Vec::new(),
+            total: Vec::new(),
         });
         grid.layout = layout;
         grid.count(from, workers);
@@ -233,79 +258,91 @@ impl<R: Real, const D: usize> Grid<R, D> {
     }
 
     /// Counting sort of the rows by cell into `order`.
+    ///
+    /// Each part owns a share of the rows as they stand, and the cells that these begin and end with: whoever has not moved far is
+    /// counted and placed by the part itself, and only the few strangers in another part's cells are handed over.
     fn count(&mut self, from: &Columns<R, D>, workers: &Workers) {
         let (agents, cells) = (from.len(), self.layout.total());
-        let parts = workers.threads();
+        let parts = if workers.threads() == 1 { 1 } else { 4 * workers.threads() };
+        let layout = &self.layout;
+        let share = |part: usize| (agents * part / parts)..(agents * (part + 1) / parts);
         self.first.resize(cells + 1, 0);
         self.key.resize(agents, 0);
         self.order.resize(agents, 0);
-        self.counts.resize_with(parts, Vec::new);
-        let layout = &self.layout;
-        let share = |part: usize, of: usize| (of * part / parts)..(of * (part + 1) / parts);
+        self.strangers.resize_with(parts, Vec::new);
+        self.total.resize(parts, 0);
+        self.bound.clear();
+        self.bound.push(0);
+        for part in 1..parts {
+            let row = share(part).start;
+            let cell = if row < agents { layout.cell(from.position(row)) } else { 0 };
+            self.bound.push(cell.max(self.bound[part - 1]));
+        }
+        self.bound.push(cells);
+        let bound = &self.bound;
+        let own = |part: usize| bound[part]..bound[part + 1];
+        let first = Shared::new(&mut self.first[..cells]);
+        let total = Shared::new(&mut self.total);
         {
             let key = Shared::new(&mut self.key);
-            let counts = Shared::new(&mut self.counts);
+            let strangers = Shared::new(&mut self.strangers);
             workers.each(parts, |_, part| {
-                // SAFETY: each part writes its own counts and its own share of the keys.
-                let count = unsafe { &mut counts.part(part..part + 1)[0] };
-                count.clear();
-                count.resize(cells, 0);
-                let rows = share(part, agents);
+                let (own, rows) = (own(part), share(part));
+                // SAFETY: each part writes its own cells, its own rows' keys, its own list and its own total.
+                let (count, keys) = unsafe { (first.part(own.clone()), key.part(rows.clone())) };
                 // SAFETY: as above.
-                let keys = unsafe { key.part(rows.clone()) };
-                for (key, row) in keys.iter_mut().zip(rows) {
+                let strangers = unsafe { &mut strangers.part(part..part + 1)[0] };
+                strangers.clear();
+                count.fill(0);
+                for (key, row) in keys.iter_mut().zip(rows.clone()) {
                     let cell = layout.cell(from.position(row));
                     *key = cell as u32;
-                    count[cell] += 1;
+                    match count.get_mut(cell.wrapping_sub(own.start)) {
+                        Some(count) => *count += 1,
+                        None => strangers.push(row as u32),
+                    }
                 }
+                // SAFETY: as above.
+                unsafe { total.write(part, (rows.len() - strangers.len()) as u32) };
             });
         }
-        // where each part's agents of each cell go: totals of cell ranges first, then the places
-        let mut totals = vec![0u32; parts];
-        {
-            let totals = Shared::new(&mut totals);
-            let counts = &self.counts;
+        let (key, strangers) = (&self.key, &self.strangers);
+        if parts > 1 {
             workers.each(parts, |_, part| {
-                let range = share(part, cells);
-                let sum = counts.iter().map(|count| count[range.clone()].iter().sum::<u32>()).sum();
-                // SAFETY: each part writes its own total.
-                unsafe { totals.write(part, sum) };
-            });
-        }
-        {
-            let first = Shared::new(&mut self.first);
-            let counts: Vec<Shared<'_, u32>> = self.counts.iter_mut().map(|c| Shared::new(c)).collect();
-            let totals = &totals;
-            workers.each(parts, |_, part| {
-                let range = share(part, cells);
-                let mut place: u32 = totals[..part].iter().sum();
-                // SAFETY: each part owns its range of cells, in `first` and in every part's counts.
-                let first = unsafe { first.part(range.clone()) };
-                let mut slices: Vec<&mut [u32]> = counts.iter().map(|c| unsafe { c.part(range.clone()) }).collect();
-                for cell in 0..first.len() {
-                    first[cell] = place;
-                    for slice in &mut slices {
-                        let here = slice[cell];
-                        slice[cell] = place;
-                        place += here;
+                let own = own(part);
+                // SAFETY: each part writes its own cells and its own total.
+                let (count, total) = unsafe { (first.part(own.clone()), &mut total.part(part..part + 1)[0]) };
+                for &row in strangers.iter().flatten() {
+                    if let Some(count) = count.get_mut((key[row as usize] as usize).wrapping_sub(own.start)) {
+                        *count += 1;
+                        *total += 1;
                     }
                 }
             });
         }
-        self.first[cells] = agents as u32;
         let order = Shared::new(&mut self.order);
-        let counts = Shared::new(&mut self.counts);
-        let key = &self.key;
+        let total = &self.total;
         workers.each(parts, |_, part| {
-            // SAFETY: each part writes its own counts, and the places they hand out are used once.
-            let place = unsafe { &mut counts.part(part..part + 1)[0] };
-            for row in share(part, agents) {
-                let cell = key[row] as usize;
-                // SAFETY: as above.
-                unsafe { order.write(place[cell] as usize, row as u32) };
-                place[cell] += 1;
+            let own = own(part);
+            // SAFETY: each part writes its own cells.
+            let first = unsafe { first.part(own.clone()) };
+            // every cell's end, which becomes its beginning as the rows are placed from the last to the first
+            let mut end: u32 = total[..part].iter().sum();
+            for cell in first.iter_mut() {
+                end += *cell;
+                *cell = end;
             }
+            let mut place = |row: usize| {
+                if let Some(first) = first.get_mut((key[row] as usize).wrapping_sub(own.start)) {
+                    *first -= 1;
+                    // SAFETY: the places of each part's cells are handed out once, by it.
+                    unsafe { order.write(*first as usize, row as u32) };
+                }
+            };
+            share(part).rev().for_each(&mut place);
+            strangers.iter().flatten().for_each(|&row| place(row as usize));
         });
+        self.first[cells] = agents as u32;
     }
 
     /// Puts each cell's rows in the order of their ids and copies the columns.
@@ -313,7 +350,7 @@ impl<R: Real, const D: usize> Grid<R, D> {
         let (agents, cells) = (from.len(), self.layout.total());
         // a few thousand rows at a time stay in the cache for all columns
         let tasks = (agents / 4096).max(workers.threads() * 4).min(cells);
-        let first = &self.first;
+        let (first, key) = (&self.first, &self.key);
         let order = Shared::new(&mut self.order);
         let id = Shared::new(&mut to.id);
         let position = to.position.each_mut().map(|c| Shared::new(c));
@@ -324,12 +361,24 @@ impl<R: Real, const D: usize> Grid<R, D> {
             let rows = first[range.start] as usize..first[range.end] as usize;
             debug_assert!(rows.end <= agents);
             // SAFETY: tasks own disjoint ranges of cells and therefore of rows.
-            let order = unsafe { order.part(rows.clone()) };
-            for cell in range {
-                let members = (first[cell] as usize - rows.start)..(first[cell + 1] as usize - rows.start);
-                if members.len() > 1 {
-                    sort_by_id(&mut order[members], &from.id);
+            let (order, id) = unsafe { (order.part(rows.clone()), id.part(rows.clone())) };
+            for (id, &row) in id.iter_mut().zip(order.iter()) {
+                *id = from.id[row as usize];
+            }
+            // few move to another cell in a step, so most cells are in order already
+            let mut k = 1;
+            while k < order.len() {
+                let cell = key[order[k] as usize];
+                if cell == key[order[k - 1] as usize] && id[k] < id[k - 1] {
+                    let cell = cell as usize;
+                    let members = (first[cell] as usize - rows.start)..(first[cell + 1] as usize - rows.start);
+                    k = members.end;
+                    sort_by_id(&mut order[members.clone()], &from.id);
+                    for member in members {
+                        id[member] = from.id[order[member] as usize];
+                    }
                 }
+                k += 1;
             }
             let copy = |from: &[R], to: &Shared<'_, R>| {
                 // SAFETY: as above.
@@ -344,11 +393,6 @@ impl<R: Real, const D: usize> Grid<R, D> {
             }
             for (from, to) in from.state.iter().zip(&state) {
                 copy(from, to);
-            }
-            // SAFETY: as above.
-            let id = unsafe { id.part(rows) };
-            for (place, &row) in id.iter_mut().zip(order.iter()) {
-                *place = from.id[row as usize];
             }
         });
     }
@@ -426,31 +470,13 @@ impl<R: Real, const D: usize> Grid<R, D> {
         shift: Vector<R, D>,
         visit: &mut impl FnMut(Segment<R, D>),
     ) {
-        let cells = self.layout.cells[0] as isize;
         let base = line * self.layout.cells[0];
-        let mut part = |from: isize, to: isize, by: Option<R>| {
-            let first = self.first[base + from as usize];
-            let end = self.first[base + to as usize + 1];
+        self.layout.runs(low, high, shift, |cells, shift| {
+            let (first, end) = (self.first[base + cells.start], self.first[base + cells.end]);
             if end > first {
-                let mut shift = shift;
-                if let Some(by) = by {
-                    shift.0[0] = by;
-                }
                 visit(Segment { first, end, shift });
             }
-        };
-        match self.layout.period[0] {
-            Some(period) => {
-                if low < 0 {
-                    part(low + cells, cells - 1, Some(-period));
-                }
-                part(low.max(0), high.min(cells - 1), None);
-                if high >= cells {
-                    part(0, high - cells, Some(period));
-                }
-            }
-            None => part(low.max(0), high.min(cells - 1), None),
-        }
+        });
     }
     /// Calls `visit(row, offset, squared distance)` for every agent closer than `radius` to a place, the agent at the
     /// place included. In canonical order while the radius is at most the grid's reach.
@@ -494,40 +520,74 @@ impl<R: Real, const D: usize> Grid<R, D> {
 pub struct LiveGrid<R, const D: usize> {
     layout: Layout<R, D>,
     reach: R,
-    cells: Vec<LiveCell<R, D>>,
+    lines: Vec<Line<R, D>>,
     cell_of: Vec<u32>,
-    /// The cells around each cell with their shifts, for the grid's own reach: `around[first[c]..first[c + 1]]`.
-    around: Vec<(u32, Vector<R, D>)>,
+    /// The runs of cells around each cell, for the grid's own reach: `around[first[c]..first[c + 1]]`.
+    around: Vec<Run<R, D>>,
     first: Vec<u32>,
 }
 
-/// The agents in a cell, with copies of their positions side by side.
-#[derive(Clone, Debug)]
-pub struct LiveCell<R, const D: usize> {
-    /// Rows, ascending.
-    pub rows: Vec<u32>,
-    /// Their positions, `[D][rows]`, with [`PADDING`] places more at the end.
-    pub position: [Vec<R>; D],
+/// A run of cells in one line of a [`LiveGrid`].
+#[derive(Clone, Copy, Debug)]
+pub struct Run<R, const D: usize> {
+    line: u32,
+    /// First cell in the line, and the one after the last.
+    cells: [u32; 2],
+    /// To be added to the positions of its agents.
+    pub shift: Vector<R, D>,
 }
 
-impl<R: Real, const D: usize> LiveCell<R, D> {
-    fn empty() -> Self {
-        Self { rows: Vec::new(), position: core::array::from_fn(|_| vec![R::ZERO; PADDING]) }
+/// The agents in a line of cells, cell by cell, with copies of their positions side by side.
+#[derive(Clone, Debug)]
+struct Line<R, const D: usize> {
+    /// Rows, ascending inside a cell, with [`PADDING`] places more at the end.
+    rows: Vec<u32>,
+    /// Their positions, `[D][rows]`, as long.
+    position: [Vec<R>; D],
+    /// First place of each cell, and the number of agents at the end.
+    first: Vec<u32>,
+}
+
+/// The agents in a run of cells: the first `count` of these columns, which are [`PADDING`] places longer at least.
+#[derive(Clone, Copy, Debug)]
+pub struct Members<'a, R, const D: usize> {
+    /// Number of agents.
+    pub count: usize,
+    /// Their rows, in canonical order.
+    pub rows: &'a [u32],
+    /// Their positions.
+    pub position: [&'a [R]; D],
+}
+
+impl<R: Real, const D: usize> Line<R, D> {
+    fn empty(cells: usize) -> Self {
+        Self {
+            rows: vec![0; PADDING],
+            position: core::array::from_fn(|_| vec![R::ZERO; PADDING]),
+            first: vec![0; cells + 1],
+        }
     }
-    fn insert(&mut self, row: u32, place: Vector<R, D>) {
-        let at = self.rows.partition_point(|&other| other < row);
+    /// Where a row stands in a cell, or would.
+    #[inline(always)]
+    fn find(&self, cell: usize, row: u32) -> usize {
+        let (first, end) = (self.first[cell] as usize, self.first[cell + 1] as usize);
+        first + self.rows[first..end].partition_point(|&other| other < row)
+    }
+    fn insert(&mut self, cell: usize, row: u32, place: Vector<R, D>) {
+        let at = self.find(cell, row);
         self.rows.insert(at, row);
         for a in 0..D {
             self.position[a].insert(at, place.0[a]);
         }
+        self.first[cell + 1..].iter_mut().for_each(|first| *first += 1);
     }
-    fn remove(&mut self, row: u32) {
-        if let Ok(at) = self.rows.binary_search(&row) {
-            self.rows.remove(at);
-            for a in 0..D {
-                self.position[a].remove(at);
-            }
+    fn remove(&mut self, cell: usize, row: u32) {
+        let at = self.find(cell, row);
+        self.rows.remove(at);
+        for a in 0..D {
+            self.position[a].remove(at);
         }
+        self.first[cell + 1..].iter_mut().for_each(|first| *first -= 1);
     }
 }
 
@@ -537,10 +597,11 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
     pub fn new(space: &Space<R, D>, reach: R, columns: &Columns<R, D>) -> Option<Self> {
         let (low, high) = bounds(columns);
         let layout = Layout::new(space, reach, columns.len(), low, high, 1.0)?;
+        let width = layout.cells[0];
         let mut grid = Self {
             layout,
             reach,
-            cells: vec![LiveCell::empty(); layout.total()],
+            lines: vec![Line::empty(width); layout.total() / width],
             cell_of: Vec::new(),
             around: Vec::new(),
             first: vec![0],
@@ -548,7 +609,7 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
         for row in 0..columns.len() {
             let cell = layout.cell(columns.position(row));
             grid.cell_of.push(cell as u32);
-            grid.cells[cell].insert(row as u32, columns.position(row));
+            grid.lines[cell / width].insert(cell % width, row as u32, columns.position(row));
         }
         for cell in 0..layout.total() {
             let mut centre = [0; D];
@@ -557,7 +618,10 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
                 centre[a] = rest % layout.cells[a];
                 rest /= layout.cells[a];
             }
-            layout.cells_around(centre, layout.span, &mut grid.around);
+            layout.each_run(centre, layout.span, |line, cells, shift| {
+                let cells = [cells.start as u32, cells.end as u32];
+                grid.around.push(Run { line: line as u32, cells, shift });
+            });
             grid.first.push(grid.around.len() as u32);
         }
         Some(grid)
@@ -566,19 +630,22 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
     #[inline]
     pub fn follow(&mut self, row: usize, place: Vector<R, D>) {
         let (old, new) = (self.cell_of[row] as usize, self.layout.cell(place));
-        if old != new {
-            self.cells[old].remove(row as u32);
-            self.cells[new].insert(row as u32, place);
-            self.cell_of[row] = new as u32;
-        } else if let Ok(at) = self.cells[new].rows.binary_search(&(row as u32)) {
+        let width = self.layout.cells[0];
+        if old == new {
+            let line = &mut self.lines[new / width];
+            let at = line.find(new % width, row as u32);
             for a in 0..D {
-                self.cells[new].position[a][at] = place.0[a];
+                line.position[a][at] = place.0[a];
             }
+        } else {
+            self.lines[old / width].remove(old % width, row as u32);
+            self.lines[new / width].insert(new % width, row as u32, place);
+            self.cell_of[row] = new as u32;
         }
     }
-    /// The cells around a row in canonical order for the grid's own reach, each with the shift of its rows.
+    /// The runs of cells around a row in canonical order for the grid's own reach.
     #[inline(always)]
-    pub fn around(&self, row: usize) -> &[(u32, Vector<R, D>)] {
+    pub fn around(&self, row: usize) -> &[Run<R, D>] {
         let cell = self.cell_of[row] as usize;
         &self.around[self.first[cell] as usize..self.first[cell + 1] as usize]
     }
@@ -587,28 +654,33 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
     pub fn reach(&self) -> R {
         self.reach
     }
-    /// The agents in a cell.
+    /// The agents in a run of cells.
     #[inline(always)]
-    pub fn cell(&self, cell: u32) -> &LiveCell<R, D> {
-        &self.cells[cell as usize]
+    pub fn members(&self, run: &Run<R, D>) -> Members<'_, R, D> {
+        let line = &self.lines[run.line as usize];
+        let (first, end) = (line.first[run.cells[0] as usize] as usize, line.first[run.cells[1] as usize] as usize);
+        let mut position = [&[][..]; D];
+        for a in 0..D {
+            position[a] = &line.position[a][first..];
+        }
+        Members { count: end - first, rows: &line.rows[first..], position }
     }
     /// As [`Grid::within`], with the positions that this grid followed.
     pub fn within(&self, place: Vector<R, D>, radius: R, mut visit: impl FnMut(u32, Vector<R, D>, R)) -> bool {
         let Some((centre, span)) = self.layout.search(place, radius) else { return false };
-        let mut cells = Vec::new();
-        self.layout.cells_around(centre, span, &mut cells);
         let limit = radius * radius;
-        for (cell, shift) in cells {
-            let cell = self.cell(cell);
-            for (at, &row) in cell.rows.iter().enumerate() {
-                let other = Vector(core::array::from_fn(|a| cell.position[a][at]));
+        self.layout.each_run(centre, span, |line, cells, shift| {
+            let cells = [cells.start as u32, cells.end as u32];
+            let members = self.members(&Run { line: line as u32, cells, shift });
+            for at in 0..members.count {
+                let other = Vector(core::array::from_fn(|a| members.position[a][at]));
                 let offset = (other + shift) - place;
                 let squared = offset.length_squared();
                 if squared < limit {
-                    visit(row, offset, squared);
+                    visit(members.rows[at], offset, squared);
                 }
             }
-        }
+        });
         true
     }
 }

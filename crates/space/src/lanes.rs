@@ -124,6 +124,20 @@ pub trait Lanes<R>:
             chosen += (bits >> k & 1) as usize;
         }
     }
+    /// [`Self::pack`] of the first `WIDTH` numbers of a slice.
+    ///
+    /// # Panics
+    /// If a slice is shorter than `WIDTH`.
+    #[inline(always)]
+    fn pack_listed(from: &[u32], bits: u32, to: &mut [u32]) {
+        let (from, to) = (&from[..Self::WIDTH], &mut to[..Self::WIDTH]);
+        let mut chosen = 0;
+        for k in 0..Self::WIDTH {
+            // never beyond the lane's own place, so in bounds
+            to[chosen] = from[k];
+            chosen += (bits >> k & 1) as usize;
+        }
+    }
 }
 
 /// The lanes of an array whose bits are set, to the front of a slice of the same length.
@@ -333,13 +347,15 @@ pub fn level() -> Level {
 
 #[cfg(target_arch = "x86_64")]
 fn processor() -> Level {
-    if std::is_x86_feature_detected!("avx512f")
+    let counts_bits = std::is_x86_feature_detected!("popcnt");
+    if counts_bits
+        && std::is_x86_feature_detected!("avx512f")
         && std::is_x86_feature_detected!("avx512vl")
         && std::is_x86_feature_detected!("avx512dq")
         && std::is_x86_feature_detected!("avx512bw")
     {
         Level::Avx512
-    } else if std::is_x86_feature_detected!("avx2") {
+    } else if counts_bits && std::is_x86_feature_detected!("avx2") {
         Level::Avx2
     } else {
         Level::Portable
@@ -389,12 +405,12 @@ mod x86 {
     use core::arch::x86_64::*;
     use core::ops::{Add, Div, Mul, Neg, Sub};
 
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,popcnt")]
     pub(super) fn avx512<R: Real, T: Task<R>>(task: T) -> T::Output {
         task.run::<R::Avx512>()
     }
 
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,popcnt")]
     pub(super) fn avx2<R: Real, T: Task<R>>(task: T) -> T::Output {
         task.run::<R::Avx2>()
     }
@@ -406,7 +422,7 @@ mod x86 {
          $set1:ident $loadu:ident $storeu:ident $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $min:ident $max:ident,
          less $less:expr, less_equal $less_equal:expr, choose $choose:expr, add_where $add_where:expr,
          and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, from_bits $from_bits:expr
-         $(, pack $pack:expr, pack_numbers $pack_numbers:expr)?) => {
+         $(, pack $pack:expr, pack_numbers $pack_numbers:expr, pack_listed $pack_listed:expr)?) => {
             #[doc = $doc]
             #[derive(Clone, Copy)]
             pub struct $name($inner);
@@ -515,7 +531,7 @@ mod x86 {
                     // SAFETY: the features are present, see above.
                     Self(unsafe { $add_where(self.0, mask.0, other.0) })
                 }
-                vector!(@pack $number $width $($pack, $pack_numbers)?);
+                vector!(@pack $number $width $($pack, $pack_numbers, $pack_listed)?);
             }
         };
         (@pack $number:ident $width:literal) => {
@@ -526,7 +542,7 @@ mod x86 {
                 super::pack_array(lanes, bits, to);
             }
         };
-        (@pack $number:ident $width:literal $pack:expr, $pack_numbers:expr) => {
+        (@pack $number:ident $width:literal $pack:expr, $pack_numbers:expr, $pack_listed:expr) => {
             #[inline(always)]
             fn pack(self, bits: u32, to: &mut [$number]) {
                 let to = &mut to[..$width];
@@ -538,6 +554,12 @@ mod x86 {
                 let to = &mut to[..$width];
                 // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
                 unsafe { $pack_numbers(first, bits, to.as_mut_ptr()) }
+            }
+            #[inline(always)]
+            fn pack_listed(from: &[u32], bits: u32, to: &mut [u32]) {
+                let (from, to) = (&from[..$width], &mut to[..$width]);
+                // SAFETY: both slices hold WIDTH numbers; the features are present, see above.
+                unsafe { $pack_listed(from.as_ptr(), bits, to.as_mut_ptr()) }
             }
         };
         (@op $name:ident $trait:ident $method:ident $intrinsic:ident) => {
@@ -557,7 +579,7 @@ mod x86 {
         // inline functions
         (write $name:ident($($arg:ident: $t:ty),*), $feature:literal, $body:expr) => {
             /// # Safety
-            /// The pointer is good for as many numbers as there are lanes.
+            /// The pointers are good for as many numbers as there are lanes.
             #[inline]
             #[target_feature(enable = $feature)]
             unsafe fn $name($($arg: $t),*) {
@@ -590,11 +612,14 @@ mod x86 {
         let all = _mm512_add_epi32(_mm512_set1_epi32(first as i32), each);
         _mm512_storeu_si512(to.cast(), _mm512_maskz_compress_epi32(bits as __mmask16, all));
     });
+    call!(write pack_listed16(from: *const u32, bits: u32, to: *mut u32), "avx512f",
+        _mm512_storeu_si512(to.cast(), _mm512_maskz_compress_epi32(bits as __mmask16, _mm512_loadu_si512(from.cast()))));
     vector!("Sixteen f32." F32Avx512 MaskF32Avx512 f32 16 __m512, __mmask16,
         _mm512_set1_ps _mm512_loadu_ps _mm512_storeu_ps _mm512_add_ps _mm512_sub_ps _mm512_mul_ps _mm512_div_ps
         _mm512_sqrt_ps _mm512_min_ps _mm512_max_ps,
         less less_f32x16, less_equal less_equal_f32x16, choose choose_f32x16, add_where add_where_f32x16,
-        and and16, or or16, not not16, bits bits16, from_bits from_bits16, pack pack_f32x16, pack_numbers pack_numbers16);
+        and and16, or or16, not not16, bits bits16, from_bits from_bits16, pack pack_f32x16, pack_numbers pack_numbers16,
+        pack_listed pack_listed16);
 
     call!(less_f64x8(a: __m512d, b: __m512d) -> __mmask8, "avx512f", _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b));
     call!(less_equal_f64x8(a: __m512d, b: __m512d) -> __mmask8, "avx512f", _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b));
@@ -612,11 +637,14 @@ mod x86 {
         let all = _mm256_add_epi32(_mm256_set1_epi32(first as i32), each);
         _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(bits as __mmask8, all));
     });
+    call!(write pack_listed8(from: *const u32, bits: u32, to: *mut u32), "avx512f,avx512vl,avx2",
+        _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(bits as __mmask8, _mm256_loadu_si256(from.cast()))));
     vector!("Eight f64." F64Avx512 MaskF64Avx512 f64 8 __m512d, __mmask8,
         _mm512_set1_pd _mm512_loadu_pd _mm512_storeu_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
         _mm512_sqrt_pd _mm512_min_pd _mm512_max_pd,
         less less_f64x8, less_equal less_equal_f64x8, choose choose_f64x8, add_where add_where_f64x8,
-        and and8, or or8, not not8, bits bits8, from_bits from_bits8, pack pack_f64x8, pack_numbers pack_numbers8);
+        and and8, or or8, not not8, bits bits8, from_bits from_bits8, pack pack_f64x8, pack_numbers pack_numbers8,
+        pack_listed pack_listed8);
 
     call!(less_f32x8(a: __m256, b: __m256) -> __m256, "avx2", _mm256_cmp_ps::<_CMP_LT_OQ>(a, b));
     call!(less_equal_f32x8(a: __m256, b: __m256) -> __m256, "avx2", _mm256_cmp_ps::<_CMP_LE_OQ>(a, b));
@@ -719,13 +747,15 @@ mod tests {
         #[inline(always)]
         fn run<L: Lanes<R>>(self) {
             let from: Vec<R> = (0..L::WIDTH).map(R::count).collect();
+            let list: Vec<u32> = (0..L::WIDTH as u32).map(|k| 1000 - k).collect();
             for seed in 0..50u32 {
                 let bits = seed.wrapping_mul(0x9E37_79B9) >> 16 & ((1u32 << L::WIDTH) - 1);
-                let (mut to, mut numbers) = ([R::ZERO; 16], [0; 16]);
+                let (mut to, mut numbers, mut listed) = ([R::ZERO; 16], [0; 16], [0; 16]);
                 L::load(&from).pack(bits, &mut to);
                 L::pack_numbers(100, bits, &mut numbers);
+                L::pack_listed(&list, bits, &mut listed);
                 for (n, k) in (0..L::WIDTH).filter(|k| bits >> k & 1 == 1).enumerate() {
-                    assert_eq!((to[n], numbers[n]), (from[k], 100 + k as u32));
+                    assert_eq!((to[n], numbers[n], listed[n]), (from[k], 100 + k as u32, list[k]));
                 }
             }
         }

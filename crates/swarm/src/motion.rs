@@ -357,9 +357,16 @@ pub trait Model<R: Scalar, const D: usize>: Send + Sync + 'static {
     fn sets(&self) -> Vec<NamedSet<R, D>>;
     /// Fills in what an initial state leaves out.
     fn complete(&self, _start: &mut Start<'_, R, D>) {}
-    /// The named sets of all percepts at once, as [`Self::sets`] defines them, where a law can do that faster than the
+    /// The named sets of all percepts at once, `named` as [`Self::sets`] made them, where a law can do that faster than the
     /// perception functions one by one; false, with nothing written, where it cannot.
-    fn select(&self, _heading: Vector<R, D>, _offset: &[&[R]; D], _squared: &[R], _sets: &mut [u32]) -> bool {
+    fn select(
+        &self,
+        _named: &[NamedSet<R, D>],
+        _heading: Vector<R, D>,
+        _offset: &[&[R]; D],
+        _squared: &[R],
+        _sets: &mut [u32],
+    ) -> bool {
         false
     }
     /// The wanted motion.

@@ -211,6 +211,7 @@ pub(crate) struct Writer<'a, R, const D: usize> {
     memory: Shared<'a, Memory<R>>,
     /// Whether a row's move is known to meet neither wall nor obstacle.
     clear: Shared<'a, bool>,
+    id: Shared<'a, u32>,
     position: [Shared<'a, R>; D],
     velocity: [Shared<'a, R>; D],
     state: Vec<Shared<'a, R>>,
@@ -221,9 +222,24 @@ impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
         Self {
             memory: Shared::new(memory),
             clear: Shared::new(clear),
+            id: Shared::new(&mut columns.id),
             position: columns.position.each_mut().map(|c| Shared::new(c)),
             velocity: columns.velocity.each_mut().map(|c| Shared::new(c)),
             state: columns.state.iter_mut().map(|c| Shared::new(c)).collect(),
+        }
+    }
+    /// Begins rows with what no kernel needs to write: ids and declared columns stay as they are.
+    ///
+    /// # Safety
+    /// No other worker writes these rows.
+    pub(crate) unsafe fn keep(&self, now: &Columns<R, D>, rows: Range<usize>) {
+        // SAFETY: the caller's promise; rows are in bounds.
+        unsafe {
+            self.clear.part(rows.clone()).fill(false);
+            self.id.part(rows.clone()).copy_from_slice(&now.id[rows.clone()]);
+            for (to, from) in self.state.iter().zip(&now.state) {
+                to.part(rows.clone()).copy_from_slice(&from[rows.clone()]);
+            }
         }
     }
     /// # Safety
@@ -687,16 +703,23 @@ impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Meet<'_, '_, R, 
         let Self { view, row, place, radius, segments, scratch } = self;
         let limit = L::splat(radius * radius);
         let me: [L; D] = splat(place);
-        let mut found = scratch.found;
         for segment in segments {
             let (mut first, end) = (segment.first as usize, segment.end as usize);
-            scratch.found = found;
             scratch.reserve(end - first);
+            let Scratch { found, row: rows, offset: offsets, squared: squares, .. } = &mut *scratch;
+            // slices of their own, which stay in registers
+            let mut position = [&[][..]; D];
+            for a in 0..D {
+                position[a] = &view.others.position[a][..end + PADDING];
+            }
+            let (rows, squares) = (&mut rows[..], &mut squares[..]);
+            let offsets = &mut offsets.each_mut().map(|o| &mut o[..]);
             let shift: [L; D] = splat(segment.shift);
+            let mut count = *found;
             while first < end {
                 let mut offset = me;
                 for a in 0..D {
-                    offset[a] = (L::load(&view.others.position[a][first..]) + shift[a]) - me[a];
+                    offset[a] = (L::load(&position[a][first..]) + shift[a]) - me[a];
                     if IMAGES {
                         offset[a] = minimal_lanes(view.space, a, offset[a]);
                     }
@@ -706,16 +729,16 @@ impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Meet<'_, '_, R, 
                 if row >= first && row < first + L::WIDTH {
                     bits &= !(1 << (row - first));
                 }
-                L::pack_numbers(first as u32, bits, &mut scratch.row[found..]);
+                L::pack_numbers(first as u32, bits, &mut rows[count..]);
                 for a in 0..D {
-                    offset[a].pack(bits, &mut scratch.offset[a][found..]);
+                    offset[a].pack(bits, &mut offsets[a][count..]);
                 }
-                squared.pack(bits, &mut scratch.squared[found..]);
-                found += bits.count_ones() as usize;
+                squared.pack(bits, &mut squares[count..]);
+                count += bits.count_ones() as usize;
                 first += L::WIDTH;
             }
+            *found = count;
         }
-        scratch.found = found;
     }
 }
 
@@ -768,7 +791,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         let selected = stages.own_sets && {
             let offset = firsts(&scratch.offset, scratch.found);
             let squared = &scratch.squared[..scratch.found];
-            self.law.select(view.now.velocity(row).unit(), &offset, squared, &mut scratch.sets)
+            self.law.select(&stages.sets, view.now.velocity(row).unit(), &offset, squared, &mut scratch.sets)
         };
         if !selected {
             stages.select(view, row, scratch, indirect);
@@ -1219,9 +1242,6 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Kernel<R, D> for Streamed<M, R,
     }
 }
 
-/// A percept's number while its cell is looked through: the cell among those around, and the place in it.
-const CELL_BITS: u32 = 24;
-
 /// One agent against its cells, without lists: several others are tested at a time, and met one by one.
 struct OneStreamed<'a, 'b, M, R, const D: usize> {
     kernel: &'a Streamed<M, R, D>,
@@ -1244,48 +1264,47 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
         let me = MeLanes { velocity: velocity.0, heading: velocity.unit().0, own: &own };
         let limit = L::splat(law.reach() * law.reach());
         // first those in reach, packed without a branch for each, then their sums
-        let around = grid.around(row);
         scratch.clear();
-        scratch.reserve(around.iter().map(|&(cell, _)| grid.cell(cell).rows.len()).sum());
         let mut found = 0;
-        for (slot, &(cell, shift)) in around.iter().enumerate() {
-            let cell = grid.cell(cell);
-            let count = cell.rows.len();
+        for run in grid.around(row) {
+            let members = grid.members(run);
+            scratch.found = found;
+            scratch.reserve(members.count);
+            let Scratch { row: rows, offset: offsets, squared: squares, .. } = &mut *scratch;
+            let (rows, squares) = (&mut rows[..], &mut squares[..]);
+            let shift: [L; D] = splat(run.shift);
             let mut first = 0;
-            while first < count {
+            // at least once, since whether a run is empty cannot be foretold
+            loop {
                 let mut offset = place;
                 for a in 0..D {
-                    offset[a] = (L::load(&cell.position[a][first..]) + L::splat(shift.0[a])) - place[a];
+                    offset[a] = (L::load(&members.position[a][first..]) + shift[a]) - place[a];
                 }
                 let squared = crate::motion::dot(&offset, &offset);
-                let bits = squared.less(limit).bits() & mask_of(count - first);
-                if bits == 0 {
-                    first += L::WIDTH;
-                    continue;
-                }
-                L::pack_numbers(((slot as u32) << CELL_BITS) + first as u32, bits, &mut scratch.row[found..]);
+                let bits = squared.less(limit).bits() & mask_of(members.count - first);
+                L::pack_listed(&members.rows[first..], bits, &mut rows[found..]);
                 for a in 0..D {
-                    offset[a].pack(bits, &mut scratch.offset[a][found..]);
+                    offset[a].pack(bits, &mut offsets[a][found..]);
                 }
-                squared.pack(bits, &mut scratch.squared[found..]);
+                squared.pack(bits, &mut squares[found..]);
                 found += bits.count_ones() as usize;
                 first += L::WIDTH;
+                if first >= members.count {
+                    break;
+                }
             }
         }
+        let (rows, squares) = (&scratch.row[..found], &scratch.squared[..found]);
+        let offsets = firsts(&scratch.offset, found);
+        let velocities = firsts(&view.others.velocity, view.others.len());
         let mut sums = M::Sums::<R>::zero();
         for k in 0..found {
-            let number = scratch.row[k];
-            let (cell, _) = around[(number >> CELL_BITS) as usize];
-            let j = grid.cell(cell).rows[(number & ((1 << CELL_BITS) - 1)) as usize] as usize;
-            if j == row || view.dead(view.others, j) {
-                continue;
-            }
-            let mut to = [R::ZERO; D];
+            let j = rows[k] as usize;
+            let (mut to, mut velocity) = ([R::ZERO; D], Vector::ZERO);
             for a in 0..D {
-                to[a] = scratch.offset[a][k];
+                to[a] = offsets[a][k];
+                velocity.0[a] = velocities[a][j];
             }
-            let squared = scratch.squared[k];
-            let velocity = view.others.velocity(j);
             let other = Other {
                 velocity,
                 heading: if M::HEADINGS { velocity.unit() } else { Vector::ZERO },
@@ -1293,8 +1312,13 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
                 others: view.others,
                 columns: &kernel.listed.stages.columns,
             };
-            let sets = law.classify::<R>(&me, &to, squared, &other);
-            law.gather::<R>(&mut sums, &me, &to, squared, &other, &sets);
+            // no branch: that somebody is oneself cannot be foretold either
+            let met = (j != row) & !view.dead(view.others, j);
+            let mut sets = law.classify::<R>(&me, &to, squares[k], &other);
+            for set in &mut sets {
+                *set &= met;
+            }
+            law.gather::<R>(&mut sums, &me, &to, squares[k], &other, &sets);
         }
         scratch.own = own;
         kernel.conclude(view, row, &sums, -1.0, scratch)

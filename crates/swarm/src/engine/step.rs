@@ -6,6 +6,7 @@ use crate::engine::world::World;
 use crate::motion::Motion;
 use crate::parameters::Scalar;
 use crate::physics::{Contact, Met};
+use space::lanes::{Lanes, Task, level, with_lanes};
 use space::random::{Purpose, uniform, uniforms};
 
 impl<R: Scalar, const D: usize> World<R, D> {
@@ -30,29 +31,24 @@ impl<R: Scalar, const D: usize> World<R, D> {
     /// All read the frame at `t`; the whole next frame is written at once.
     fn step_synchronous(&mut self) {
         self.obstacles.advance(self.time);
-        if !self.declared.is_empty() {
-            // columns that nobody writes keep their values
-            for (to, from) in self.next.state.iter_mut().zip(&self.now.state) {
-                to.copy_from_slice(from);
-            }
-        }
-        let mut next = core::mem::replace(&mut self.next, space::Columns::new(0, 0));
+        let mut next = core::mem::replace(&mut self.next, space::Columns::nothing());
         let mut memory = core::mem::take(&mut self.memory);
         let mut clear = core::mem::take(&mut self.clear);
-        clear.fill(false);
         let mut scratch = core::mem::take(&mut self.scratch);
         {
-            next.id.copy_from_slice(&self.now.id);
             let view = self.view();
             let out = Writer::new(&mut next, &mut memory, &mut clear);
             let worker_scratch = space::parallel::Shared::new(&mut scratch);
             let rows = self.now.len();
             let threads = self.workers.threads();
-            let tasks = if threads == 1 { 1 } else { (rows / 16).clamp(1, threads * 8) };
+            // many, so that nobody waits long for the last one, but none so short that its beginning costs more than the rest
+            let tasks = if threads == 1 { 1 } else { (rows / 16).min((rows / 1024).max(threads * 8)).max(1) };
             self.workers.each(tasks, |worker, task| {
                 // SAFETY: a worker runs one task at a time.
                 let scratch = unsafe { &mut worker_scratch.part(worker..worker + 1)[0] };
                 let part = (rows * task / tasks)..(rows * (task + 1) / tasks);
+                // SAFETY: tasks own disjoint rows.
+                unsafe { out.keep(&self.now, part.clone()) };
                 for group in &self.groups {
                     group.kernel.sweep(&view, part.clone(), &out, scratch);
                 }
@@ -90,7 +86,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.order.clear();
         self.order.extend(0..agents as u32);
         if order == Order::Random {
-            shuffle(&mut self.order, self.seed, self.step);
+            with_lanes(level(), Shuffle { order: &mut self.order, seed: self.seed, step: self.step });
         }
         let Some(mut scratch) = self.scratch.pop() else { return };
         let sequence = core::mem::take(&mut self.order);
@@ -228,18 +224,32 @@ impl<R: Scalar, const D: usize> World<R, D> {
 }
 
 /// Fisher and Yates, with draws for this step alone, made several at a time.
-fn shuffle(order: &mut [u32], seed: u64, step: u64) {
-    const TOGETHER: usize = 16;
-    let mut last = order.len().saturating_sub(1);
-    while last > 0 {
-        let slots: [u32; TOGETHER] = core::array::from_fn(|k| (last.saturating_sub(k) as u32).wrapping_mul(8) + 7);
-        for draw in uniforms(seed, Purpose::Environment, step, &slots) {
-            if last == 0 {
-                return;
+struct Shuffle<'a> {
+    order: &'a mut [u32],
+    seed: u64,
+    step: u64,
+}
+
+impl Task<f64> for Shuffle<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes<f64>>(self) {
+        const TOGETHER: usize = 16;
+        let Self { order, seed, step } = self;
+        let mut last = order.len().saturating_sub(1);
+        while last > 0 {
+            let mut slots = [0; TOGETHER];
+            for k in 0..TOGETHER {
+                slots[k] = (last.saturating_sub(k) as u32).wrapping_mul(8) + 7;
             }
-            let other = (draw * (last as f64 + 1.0)) as usize;
-            order.swap(last, other.min(last));
-            last -= 1;
+            for draw in uniforms(seed, Purpose::Environment, step, &slots) {
+                if last == 0 {
+                    return;
+                }
+                let other = (draw * (last as f64 + 1.0)) as usize;
+                order.swap(last, other.min(last));
+                last -= 1;
+            }
         }
     }
 }

@@ -140,10 +140,7 @@ impl<R: Scalar> Stream<R, 2> for AbmFlocking<R> {
         let (gather, align) = (Vector(*displacement) / number, Vector(*velocities) * self.alignment / number);
         me.note("cohesion and separation", gather);
         me.note("alignment", align);
-        let mut heading = (me.velocity + gather + align).unit();
-        if heading.is_tiny() {
-            heading = me.heading();
-        }
+        let heading = (me.velocity + gather + align).unit_or(me.heading());
         Motion::new_velocity(heading * self.speed, self.time_step)
     }
 }

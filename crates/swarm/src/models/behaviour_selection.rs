@@ -318,11 +318,10 @@ fn sum_of_all<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl Sig
         }
     }
     for k in whole..seen.len() {
-        if inside(sight, k, set) {
-            let term = T::of(seen, k);
-            for a in 0..3 {
-                sums[a][k - whole] += term.0[a];
-            }
+        let term = T::of(seen, k);
+        let chosen = inside(sight, k, set);
+        for a in 0..3 {
+            sums[a][k - whole] += if chosen { term.0[a] } else { R::ZERO };
         }
     }
     let mut sum = Vector::ZERO;
@@ -347,18 +346,31 @@ fn bound_of_nearest<R: Scalar>(seen: &Percepts<'_, R, 3>, sight: &impl Sight, se
         }
     }
     for k in whole..seen.len() {
-        if inside(sight, k, set) && seen.squared[k] < least[k - whole] {
-            least[k - whole] = seen.squared[k];
-        }
+        let squared = if inside(sight, k, set) { seen.squared[k] } else { R::INFINITY };
+        least[k - whole] = if squared < least[k - whole] { squared } else { least[k - whole] };
     }
+    const HALF: usize = KEPT / 2;
+    if considered > HALF {
+        return in_order(&least, considered);
+    }
+    let mut half = [R::INFINITY; HALF];
+    for l in 0..HALF {
+        half[l] = if least[l] < least[l + HALF] { least[l] } else { least[l + HALF] };
+    }
+    in_order(&half, considered)
+}
+
+/// The least of a few numbers that so many do not exceed.
+#[inline(always)]
+fn in_order<R: Scalar, const N: usize>(numbers: &[R; N], count: usize) -> R {
     let mut bound = R::INFINITY;
-    for l in 0..KEPT {
+    for &number in numbers {
         let mut rank = 0;
-        for other in 0..KEPT {
-            rank += usize::from(least[other] <= least[l]);
+        for &other in numbers {
+            rank += usize::from(other <= number);
         }
-        let better = rank >= considered && least[l] < bound;
-        bound = if better { least[l] } else { bound };
+        let better = rank >= count && number < bound;
+        bound = if better { number } else { bound };
     }
     bound
 }
@@ -384,20 +396,39 @@ fn kept_nearest<R: Scalar>(
             listed += usize::from(inside(sight, k, set) & (seen.squared[k] <= bound));
         }
         for &k in &list[..listed] {
-            if filled < considered {
+            if filled < KEPT {
+                kept[filled] = k;
                 filled += 1;
-            } else if !before(seen, k as usize, kept[filled - 1] as usize) {
                 continue;
             }
-            let mut at = filled - 1;
-            while at > 0 && before(seen, k as usize, kept[at - 1] as usize) {
-                kept[at] = kept[at - 1];
-                at -= 1;
+            // more than there is room for: the last of them in order goes
+            ordered(seen, &mut kept, filled);
+            if before(seen, k as usize, kept[KEPT - 1] as usize) {
+                kept[KEPT - 1] = k;
             }
-            kept[at] = k;
         }
     }
+    ordered(seen, &mut kept, filled);
     kept
+}
+
+/// Puts the first `filled` of a list in order, the nearest first: each goes to the place that so many others are before it.
+#[inline(always)]
+fn ordered<R: Scalar>(seen: &Percepts<'_, R, 3>, list: &mut [u32; KEPT], filled: usize) {
+    let mut squared = [R::INFINITY; KEPT];
+    let mut id = [u32::MAX; KEPT];
+    for n in 0..filled {
+        (squared[n], id[n]) = (seen.squared[list[n] as usize], seen.id(list[n] as usize));
+    }
+    let unordered = *list;
+    for n in 0..filled {
+        let mut rank = 0;
+        for m in 0..KEPT {
+            let nearer = (squared[m] < squared[n]) | (squared[m] == squared[n]) & (id[m] < id[n]);
+            rank += usize::from(nearer);
+        }
+        list[rank % KEPT] = unordered[n];
+    }
 }
 
 impl<R: Scalar> BehaviourSelection<R> {
@@ -464,6 +495,10 @@ impl<R: Scalar> BehaviourSelection<R> {
             _ => (self.preferred_neighbours, self.growth),
         };
         let exponent = -growth.to_f64() * (f64::from(aligning) - preferred.to_f64());
+        if exponent < -40.0 {
+            // what is added to 1 below is less than half of its last digit
+            return 1.0;
+        }
         // from libm, as everywhere
         1.0 / (1.0 + Real::exp(exponent))
     }
@@ -620,12 +655,19 @@ impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
         *start.velocity = Self::heading_of(start.own[THETA], start.own[PHI]) * self.speed;
     }
     #[inline(always)]
-    fn select(&self, heading: Vector<R, 3>, offset: &[&[R]; 3], squared: &[R], sets: &mut [u32]) -> bool {
+    fn select(
+        &self,
+        named: &[NamedSet<R, 3>],
+        heading: Vector<R, 3>,
+        offset: &[&[R]; 3],
+        squared: &[R],
+        sets: &mut [u32],
+    ) -> bool {
         let [near, middle, far] = self.bounds().map(|bound| bound * bound);
-        // as `in_view`, for several percepts at a time
-        let limit = cos_half(self.field_of_view.radians());
-        let limit = limit * limit.abs();
-        let resting = heading.length_squared() <= R::ZERO || self.view == View::Axes;
+        // as `in_view`, for several percepts at a time; without a cone, in all directions
+        let cone = named[ATTRACTION].perception.cos_half();
+        let limit = cone.map_or(R::ZERO, |limit| limit * limit.abs());
+        let resting = heading.length_squared() <= R::ZERO || cone.is_none();
         let behind = !self.avoid_blind;
         let count = sets.len();
         let [x, y, z] = offset.map(|o| &o[..count]);
@@ -636,9 +678,11 @@ impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
             let seen = ahead | (squared[k] <= R::TINY * R::TINY) | resting;
             let (avoid, align) = (squared[k] < near, squared[k] < middle);
             let attract = squared[k] < far;
-            sets[k] = u32::from(avoid & (seen | behind))
-                | u32::from(align & !avoid & seen) << ALIGNMENT
-                | u32::from(attract & !align & seen) << ATTRACTION;
+            // the innermost zone, by choices that become masked moves
+            let zone = if attract { 1 << ATTRACTION } else { 0 };
+            let zone = if align { 1 << ALIGNMENT } else { zone };
+            let zone = if avoid { 1 << AVOIDANCE } else { zone };
+            sets[k] = if seen | (avoid & behind) { zone } else { 0 };
         }
         true
     }

@@ -111,6 +111,15 @@ impl<R: Scalar, const D: usize> Perception<R, D> {
     pub fn angle(opening: R) -> Self {
         Self::Angle { opening, cos_half: cos_half(opening) }
     }
+    /// The cosine of half the opening of its cone, where it is one or an intersection with one.
+    #[inline]
+    pub fn cos_half(&self) -> Option<R> {
+        match self {
+            Self::Angle { cos_half, .. } => Some(*cos_half),
+            Self::Intersection(parts) => parts.iter().find_map(Self::cos_half),
+            _ => None,
+        }
+    }
     /// In both of two functions.
     pub fn both(self, other: Self) -> Self {
         Self::Intersection(vec![self, other])
