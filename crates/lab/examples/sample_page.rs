@@ -53,12 +53,13 @@ fn swimmer(index: usize, time: f64) -> (usize, [f64; 3], [f64; 3]) {
 
 /// Where a bird is in the periodic plane, and its heading.
 fn bird(index: usize, time: f64) -> ([f64; 3], [f64; 3]) {
-    let order = 1.0 - (-time / 12.0).exp();
-    let angle = (1.0 - order) * (share(index, 6) - 0.5) * TAU + 0.5 + 0.25 * (time / 9.0).sin();
-    let start = [share(index, 4) * 25.0, share(index, 5) * 25.0];
-    let travelled = [1.1 * time, 0.6 * time + 2.0 * (time / 9.0 + share(index, 6)).sin()];
-    let wrapped = |axis: usize| (start[axis] + travelled[axis]).rem_euclid(25.0);
-    ([wrapped(0), wrapped(1), 0.0], [angle.cos(), angle.sin(), 0.0])
+    // every bird begins with a heading of its own and takes on the common one
+    let own = share(index, 6) * TAU;
+    let (left, spent) = ((-time / 8.0).exp(), 8.0 * (1.0 - (-time / 8.0).exp()));
+    let velocity = [1.1 + 2.0 * own.cos() * left, 0.5 * (time / 9.0).cos() + 2.0 * own.sin() * left, 0.0];
+    let travelled = [1.1 * time + 2.0 * own.cos() * spent, 4.5 * (time / 9.0).sin() + 2.0 * own.sin() * spent];
+    let wrapped = |axis: usize| (25.0 * share(index, 4 + axis) + travelled[axis]).rem_euclid(25.0);
+    ([wrapped(0), wrapped(1), 0.0], unit(velocity))
 }
 
 fn unit(vector: [f64; 3]) -> [f64; 3] {

@@ -21,6 +21,10 @@ const SAMPLE: f64 = 24.0;
 /// Columns in which a line keeps its extremes, per unit of the drawing.
 const COLUMNS: f64 = 2.0;
 
+/// About how many marks the axes have.
+const X_MARKS: usize = 6;
+const Y_MARKS: usize = 5;
+
 /// A chart, ready for the page.
 pub(super) struct Chart {
     /// The drawing.
@@ -55,9 +59,9 @@ pub(super) fn chart(lines: &Lines, id: &str) -> Chart {
     let y_values = || values().filter_map(|(_, y)| y);
     let y = match lines.y.range {
         Some(_) => ends(lines.y.range, y_values()),
-        None => rounded_ends(ends(None, y_values()), 4),
+        None => rounded_ends(ends(None, y_values()), Y_MARKS),
     };
-    let (x_ticks, y_ticks) = (ticks(x, 5), ticks(y, 4));
+    let (x_ticks, y_ticks) = (ticks(x, X_MARKS), ticks(y, Y_MARKS));
     let widest = y_ticks.labels.iter().map(|label| label.chars().count()).max().unwrap_or(0);
     let legend = Legend::of(&lines.lines, WIDTH);
     let top = legend.height + 26.0;

@@ -145,6 +145,7 @@ fn scenes_figure(scenes: &Scenes, number: usize) -> Value {
         obstacles => scenes.moments.iter().any(|moment| !moment.obstacles.is_empty()),
         food => scenes.moments.iter().any(|moment| !moment.items.is_empty()),
         file => escape::file_name(&scenes.title.to_lowercase(), &format!("scenes-{number}")),
+        space => replay::axes(&scenes.stage) == 3,
         moments,
     }
 }

@@ -331,6 +331,21 @@
     };
     const series = (group) => colours.series[group % colours.series.length];
 
+    const radius = Math.hypot(...size) / 2;
+    const corner = (bits) => [0, 1, 2].map((axis) => (bits >> axis & 1 ? stage.high[axis] : stage.low[axis]));
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(corner);
+    /** A camera that looks at the middle of the stage from a distance, upright. */
+    const camera = ({ turn, tilt }, scale, offset) => {
+      const far = 3.4 * radius;
+      const [cosTurn, sinTurn, cosTilt, sinTilt] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
+      return (place) => {
+        const [x, y, z] = [0, 1, 2].map((axis) => place[axis] - centre[axis]);
+        const across = x * cosTurn - y * sinTurn, away = x * sinTurn + y * cosTurn;
+        const up = z * cosTilt + away * sinTilt, depth = away * cosTilt - z * sinTilt;
+        const here = scale * far / Math.max(far + depth, 0.05 * far);
+        return [offset[0] + across * here, offset[1] - up * here, depth, here];
+      };
+    };
     // from a place on the stage to the screen: [across, down, depth, units of the screen per unit of length]
     let project;
     const aim = () => {
@@ -341,17 +356,13 @@
         project = ([x, y]) => [middle[0] + (x - centre[0]) * scale, middle[1] - (y - centre[1]) * scale, 0, scale];
         return;
       }
-      const radius = Math.hypot(...size) / 2, far = 3.4 * radius;
-      const scale = Math.min(inside[0] / 2.05, inside[1] / 1.75) / radius * view.zoom;
-      const [cosTurn, sinTurn] = [Math.cos(view.turn), Math.sin(view.turn)];
-      const [cosTilt, sinTilt] = [Math.cos(view.tilt), Math.sin(view.tilt)];
-      project = (place) => {
-        const [x, y, z] = [0, 1, 2].map((axis) => place[axis] - centre[axis]);
-        const across = x * cosTurn - y * sinTurn, away = x * sinTurn + y * cosTurn;
-        const up = z * cosTilt + away * sinTilt, depth = away * cosTilt - z * sinTilt;
-        const here = scale * far / Math.max(far + depth, 0.05 * far);
-        return [middle[0] + across * here, middle[1] - up * here, depth, here];
-      };
+      // the whole stage fits into the first view; turning it changes nothing but the direction
+      const seen = corners.map(camera(FIRST_VIEW, 1, [0, 0]));
+      const [lefts, tops] = [0, 1].map((axis) => seen.map((place) => place[axis]));
+      const [least, most] = [[Math.min(...lefts), Math.min(...tops)], [Math.max(...lefts), Math.max(...tops)]];
+      const scale = 0.97 * Math.min(...[0, 1].map((axis) => inside[axis] / (most[axis] - least[axis])));
+      const offset = [0, 1].map((axis) => middle[axis] - scale * view.zoom * (least[axis] + most[axis]) / 2);
+      project = camera(view, scale * view.zoom, offset);
     };
 
     const path = (places, closed) => {
@@ -360,8 +371,8 @@
       if (closed) pen.closePath();
     };
     const edge = (kind) => {
-      pen.strokeStyle = kind === "wall" ? colours.text : colours.faint;
-      pen.lineWidth = kind === "wall" ? (space ? 1.1 : 2) : 1.1;
+      pen.strokeStyle = kind === "wall" && !space ? colours.text : colours.faint;
+      pen.lineWidth = kind === "wall" && !space ? 2 : 1.1;
       pen.setLineDash(kind === "seam" ? [5, 5] : []);
       pen.stroke();
       pen.setLineDash([]);
@@ -370,7 +381,6 @@
     /** The ends of the stage, as things to draw: [depth, act]. */
     const edges = () => {
       const things = [];
-      const corner = (bits) => [0, 1, 2].map((axis) => (bits >> axis & 1 ? stage.high[axis] : stage.low[axis]));
       for (let axis = 0; axis < stage.axes; axis += 1) {
         for (let bits = 0; bits < 1 << stage.axes; bits += 1) {
           if (bits >> axis & 1) continue;
@@ -392,13 +402,35 @@
       return things;
     };
 
-    const paint = () => { pen.fillStyle = colours.obstacle; pen.fill(); pen.strokeStyle = colours.faint; pen.lineWidth = 0.8; pen.stroke(); };
+    const paint = (shade = 0, fill = colours.obstacle) => {
+      pen.fillStyle = fill;
+      pen.fill();
+      pen.globalAlpha = shade;
+      pen.fillStyle = colours.faint;
+      pen.fill();
+      pen.globalAlpha = 1;
+      pen.strokeStyle = colours.faint;
+      pen.lineWidth = 0.8;
+      pen.stroke();
+    };
+    /** What is far away in space is paler. */
+    const paleness = (depth) => (space ? 1 - 0.5 * clamp((depth / radius + 1) / 2, 0, 1) : 1);
     /** An obstacle as things to draw. */
     const obstacle = (outline) => {
       if (outline.ball) {
         const [x, y, depth, scale] = project(outline.ball);
         const radius = Math.max(1, outline.radius * scale);
-        return [[depth, () => { pen.beginPath(); pen.arc(x, y, radius, 0, 2 * Math.PI); paint(); }]];
+        return [[depth, () => {
+          let fill = colours.obstacle;
+          if (space) {
+            fill = pen.createRadialGradient(x - radius * 0.35, y - radius * 0.4, radius * 0.1, x, y, radius * 1.25);
+            fill.addColorStop(0, colours.obstacle);
+            fill.addColorStop(1, colours.faint);
+          }
+          pen.beginPath();
+          pen.arc(x, y, radius, 0, 2 * Math.PI);
+          paint(0, fill);
+        }]];
       }
       if (outline.segment) {
         const ends = outline.segment.map(project);
@@ -421,10 +453,10 @@
           }
         }
       }
-      return faces.map((corners) => {
-        const seen = corners.map(project);
+      return faces.map((face, index) => {
+        const seen = face.map(project);
         const depth = seen.reduce((sum, place) => sum + place[2], 0) / seen.length;
-        return [depth, () => { path(seen, true); paint(); }];
+        return [depth, () => { path(seen, true); paint(space ? [0.32, 0.16, 0][index >> 1] ?? 0 : 0); }];
       });
     };
 
@@ -436,7 +468,7 @@
       const group = data.group[index];
       const half = clamp((stage.radius[group] ?? 0) * scale, space ? smallest * scale / project(centre)[3] : smallest, 80);
       const heading = data.heading(frame, index);
-      let corners = null;
+      let arrow = null;
       if (heading) {
         const ahead = 1e-3 * Math.max(...size) || 1;
         const [u, v] = project(place.map((value, axis) => value + ahead * heading[axis]));
@@ -444,19 +476,21 @@
         const seen = Math.min(1, length / (ahead * scale));
         if (seen > 0.2) {
           const [cos, sin] = [across / length, down / length];
-          corners = ARROW.map(([along, aside]) => {
+          arrow = ARROW.map(([along, aside]) => {
             const [a, b] = [along * half * Math.max(seen, 0.5), aside * half];
             return [x + a * cos - b * sin, y + a * sin + b * cos];
           });
         }
       }
       return [depth, () => {
-        if (corners) path(corners, true); else { pen.beginPath(); pen.arc(x, y, half * 0.6, 0, 2 * Math.PI); }
+        pen.globalAlpha = paleness(depth);
+        if (arrow) path(arrow, true); else { pen.beginPath(); pen.arc(x, y, half * 0.6, 0, 2 * Math.PI); }
         pen.fillStyle = series(group);
         pen.fill();
         pen.strokeStyle = colours.stage;
         pen.lineWidth = 0.7;
         pen.stroke();
+        pen.globalAlpha = 1;
       }];
     };
 
@@ -497,7 +531,7 @@
       pen.fillStyle = colours.faint;
       pen.font = "12px system-ui, sans-serif";
       pen.textAlign = "left";
-      pen.fillText(withUnit(length, stage.unit), ROOM + length * scale + 7, base + 1);
+      pen.fillText(withUnit(length, stage.unit) + (space ? " in the middle" : ""), ROOM + length * scale + 7, base + 1);
       if (frames > 0) {
         pen.textAlign = "right";
         pen.fillText(`t = ${withUnit(times[frame], replay.timeUnit)}`, wide - ROOM, base + 1);
@@ -521,7 +555,7 @@
       const behind = edges();
       if (!space) things.splice(0).forEach(([, act]) => act());
       if (frames > 0 && trails.checked) drawTrails();
-      const smallest = data.agents > 800 ? 3 : 5;
+      const smallest = (data.agents > 800 ? 3 : 5) * (space ? 1.2 : 1) * (wide < 500 ? 0.8 : 1);
       for (let index = 0; frames > 0 && index < data.agents; index += 1) {
         const thing = agent(index, smallest);
         if (thing) things.push(thing);

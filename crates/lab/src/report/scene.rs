@@ -135,7 +135,7 @@ pub(super) fn scene(scenes: &Scenes, moment: &Moment) -> String {
                 svg,
                 "<text class=\"view\" x=\"{}\" y=\"{}\">from {} <tspan class=\"axes\">{}\u{2009}\u{2192} {up}\u{2009}\u{2191}</tspan></text>",
                 place(view.left),
-                place(view.top - 6.0),
+                place(view.top - ROOM - 4.0),
                 view.name,
                 AXES[view.right]
             );
