@@ -1,7 +1,8 @@
 //! Writes a sample page: `cargo run -p lab --example sample_page -- OUT.html`.
 //!
 //! Three groups circle in space among obstacles; one flock moves in a periodic plane. Nothing is simulated: the paths are
-//! closed forms, so that the tests of the page know what it must show.
+//! closed forms, so that the tests of the page know what it must show. With `strange` as the second argument: a page of
+//! everything that can be wrong with what is to be shown.
 
 use lab::report::{
     Axis, Border, Fact, Figure, Line, Lines, Moment, Outline, Page, Replay, Scenes, Seen, Stage, Table, html,
@@ -20,7 +21,12 @@ const TIME_STEP: f64 = 0.25;
 
 fn main() -> ExitCode {
     let Some(file) = std::env::args().nth(1) else { return ExitCode::from(2) };
-    match std::fs::write(file, html(&page())) {
+    let page = match std::env::args().nth(2).as_deref() {
+        None | Some("sample") => page(),
+        Some("strange") => strange(),
+        Some(_) => return ExitCode::from(2),
+    };
+    match std::fs::write(file, html(&page)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(_) => ExitCode::from(70),
     }
@@ -320,5 +326,110 @@ fn page() -> Page {
                  [space]\nsize = [40, 40, 20]  # m\nboundary = \"walls\"\n\n[group.herring]\ncount = 60\nbody = { radius = 0.4 }\n"
             .into(),
         made_by: "Made by flockworks 0.1.0, seed 2026".into(),
+    }
+}
+
+/// Everything that can be wrong with what is to be shown.
+fn strange() -> Page {
+    let hostile = "</script><script>globalThis.escaped=1</script><img src=x onerror=globalThis.escaped=1>\u{1f41f}";
+    let unbroken = "a-name-without-any-place-to-break-it-".repeat(6);
+    let line = |name: &str, x: &[f64], y: &[Option<f64>]| Line { name: name.into(), x: x.to_vec(), y: y.to_vec() };
+    let lines = |id: &str, lines: Vec<Line>| {
+        let axis = || axis(hostile, "1", Some((f64::NAN, 1.0)));
+        Figure::Lines(Lines { id: id.into(), title: id.into(), about: hostile.into(), x: axis(), y: axis(), lines })
+    };
+    let stage = |dimensions: usize, high: [f64; 3], edges: Border| Stage {
+        dimensions,
+        low: [0.0; 3],
+        high,
+        edges: [edges; 3],
+        unit: "1".into(),
+        groups: vec![hostile.into()],
+        radius: vec![f64::NAN],
+    };
+    let rod = Outline::Segment { from: [1.0; 3], to: [4.0, 2.0, 0.0] };
+    let shapes = vec![
+        Outline::Cuboid { low: [1.0; 3], high: [2.0; 3] },
+        Outline::Ball { centre: [f64::NAN; 3], radius: 1.0 },
+        Outline::Polygon(vec![[5.0, 5.0, 0.0], [7.0, 5.0, 0.0], [6.0, 8.0, 0.0]]),
+        Outline::Polygon(vec![]),
+        rod,
+    ];
+    let replay = |title: &str, stage: Stage, times: Vec<f64>, agents: usize| {
+        let place = |frame: usize, agent: usize| match (frame + agent) % 5 {
+            4 => [f32::NAN; 3],
+            place => [place as f32 * 2.0, agent as f32, 0.5],
+        };
+        let heading = |agent: usize| if agent % 2 == 0 { [0.0; 3] } else { [0.0, 0.6, 0.8] };
+        let frames = 0..times.len();
+        Figure::Replay(Replay {
+            title: title.into(),
+            about: String::new(),
+            stage,
+            time_unit: String::new(),
+            group: (0..agents).map(|agent| agent % 9).collect(),
+            position: frames.clone().map(|frame| (0..agents).map(|agent| place(frame, agent)).collect()).collect(),
+            heading: frames.clone().map(|_| (0..agents).map(heading).collect()).collect(),
+            obstacles: frames.map(|_| shapes.clone()).collect(),
+            times,
+        })
+    };
+    let scenes = |title: &str, stage: Stage| {
+        let agent = |index: usize| Seen {
+            group: index,
+            position: [index as f64, 2.0, if index == 3 { f64::NAN } else { 0.5 }],
+            heading: [0.0, 1.0, 0.0],
+            trail: vec![[f64::NAN; 3], [0.0; 3]],
+        };
+        let full = Moment {
+            time: -1.5e-7,
+            agents: (0..9).map(agent).collect(),
+            items: vec![[f64::INFINITY; 3], [1.0; 3]],
+            obstacles: shapes.clone(),
+        };
+        let empty = Moment { time: f64::NAN, agents: vec![], items: vec![], obstacles: vec![] };
+        Figure::Scenes(Scenes {
+            title: title.into(),
+            about: String::new(),
+            stage,
+            time_unit: "1".into(),
+            moments: vec![full, empty],
+        })
+    };
+    let names: Vec<String> = (0..23).map(|index| format!("line {index}")).collect();
+    let many =
+        names.iter().enumerate().map(|(i, name)| line(name, &[0.0, 1.0], &[Some(i as f64), Some(2.0 * i as f64)]));
+    Page {
+        title: hostile.into(),
+        lead: vec![unbroken.clone()],
+        methods: vec![hostile.into()],
+        summary: vec![Fact { label: unbroken.clone(), value: unbroken.clone() }],
+        figures: vec![
+            replay("No frames", stage(2, [10.0; 3], Border::Wall), vec![], 3),
+            replay("No agents", stage(3, [10.0; 3], Border::Seam), vec![0.0, 1.0], 0),
+            replay("A line", stage(1, [10.0, 0.0, 0.0], Border::Wall), vec![0.0, 1.0, 2.0], 7),
+            replay("No extent", stage(3, [0.0; 3], Border::Wall), vec![0.0, f64::NAN], 7),
+            replay("A plane with obstacles that move", stage(2, [10.0, 5.0, 0.0], Border::Open), vec![1.0, 1.0], 12),
+            lines("none", vec![]),
+            lines("empty", vec![line("a", &[], &[])]),
+            lines("one", vec![line("a", &[1.0], &[Some(1.0)])]),
+            lines("missing", vec![line("a", &[1.0, 2.0], &[None, None])]),
+            lines("equal", vec![line(&unbroken, &[1.0, 2.0], &[Some(3.0), Some(3.0)]), line(hostile, &[1.0], &[None])]),
+            lines("huge", vec![line("a", &[0.0, 1.0, 2.0], &[Some(-f64::MAX), Some(f64::MAX), Some(f64::NAN)])]),
+            lines(
+                "apart",
+                vec![line("a", &[0.0, 1.0], &[Some(1.0), Some(2.0)]), line("b", &[0.3, 0.6], &[Some(2.0), None])],
+            ),
+            lines("nowhere", vec![line("a", &[f64::NAN, f64::INFINITY], &[Some(1.0), Some(2.0)])]),
+            lines("many", many.collect()),
+            scenes("A line", stage(1, [10.0, 0.0, 0.0], Border::Seam)),
+            scenes("No extent", stage(2, [0.0; 3], Border::Wall)),
+            scenes("A corridor", stage(2, [100.0, 1.0, 0.0], Border::Wall)),
+            scenes("A shaft", stage(3, [1.0, 1.0, 200.0], Border::Seam)),
+        ],
+        tables: vec![Table { file: hostile.into(), about: unbroken.clone(), csv: String::new() }],
+        command: unbroken.repeat(3),
+        source: hostile.into(),
+        made_by: unbroken,
     }
 }

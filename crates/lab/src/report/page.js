@@ -218,7 +218,7 @@
         marks[index].setAttribute("r", shown ? 4 : 0);
         if (shown) {
           marks[index].setAttribute("cx", across(x));
-          marks[index].setAttribute("cy", down(y));
+          marks[index].setAttribute("cy", clamp(down(y), -1e5, 1e5));
         }
         const elsewhere = own.length > 0 && own[point] !== x ? ` (at ${withUnit(own[point], chart.x.unit)})` : "";
         return element("tr", {},
