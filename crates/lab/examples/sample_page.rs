@@ -360,7 +360,7 @@ fn strange() -> Page {
             4 => [f32::NAN; 3],
             place => [place as f32 * 2.0, agent as f32, 0.5],
         };
-        let heading = |agent: usize| if agent % 2 == 0 { [0.0; 3] } else { [0.0, 0.6, 0.8] };
+        let heading = |agent: usize| if agent.is_multiple_of(2) { [0.0; 3] } else { [0.0, 0.6, 0.8] };
         let frames = 0..times.len();
         Figure::Replay(Replay {
             title: title.into(),

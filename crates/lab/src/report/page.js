@@ -701,5 +701,11 @@
     addEventListener("afterprint", repaint);
   };
   all("[data-replay]").forEach(play);
+
+  // on paper nobody can unfold anything
+  const folded = () => all("details.source:not([open])");
+  let unfolded = [];
+  addEventListener("beforeprint", () => { unfolded = folded(); for (const part of unfolded) part.open = true; });
+  addEventListener("afterprint", () => { for (const part of unfolded) part.open = false; });
   showTheme();
 })();
