@@ -317,6 +317,7 @@ fn data(lines: &Lines, id: &str, plot: &Plot) -> Value {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 mod tests {
     use super::super::Axis;
     use super::*;

@@ -181,6 +181,7 @@ fn nonce(texts: &[&str]) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 mod tests {
     use super::super::{Axis, Border, Fact, Line, Moment, Outline, Seen};
     use super::*;
