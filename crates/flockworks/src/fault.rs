@@ -60,7 +60,7 @@ pub fn wrong<T>(text: impl Into<String>) -> Result<T, Fault> {
 
 /// A hint at the nearest name there is.
 pub fn hint(name: &str, among: &[&str]) -> String {
-    match swarm::parameters::nearest(name, among.iter().copied()) {
+    match space::spelling::nearest(name, among.iter().copied()) {
         Some(nearest) => format!("; did you mean `{nearest}`?"),
         None => String::new(),
     }

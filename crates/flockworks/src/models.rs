@@ -102,7 +102,7 @@ fn stages(entry: &Entry) -> Vec<(&'static str, &'static str)> {
 
 /// What a parameter takes, with the range of its numbers.
 fn takes(parameter: &Descriptor) -> String {
-    match (parameter.takes.as_str(), parameter.range) {
+    match (parameter.takes.to_string().as_str(), parameter.range) {
         ("a number", range) => range.to_string(),
         (takes, Range::Any) => takes.to_owned(),
         (takes, range) => format!("{takes}, {range}"),
@@ -319,7 +319,7 @@ fn card_json(entry: &Entry) -> Json {
             Range::Within(low, high) => (Some(low), Some(high)),
         };
         json!({
-            "name": p.name, "alias": p.alias, "symbol": p.symbol, "unit": p.unit, "takes": p.takes,
+            "name": p.name, "alias": p.alias, "symbol": p.symbol, "unit": p.unit, "takes": p.takes.to_string(),
             "range": p.range.to_string(), "low": low, "high": high, "low_included": p.range != Range::Positive,
             "default": json_of(&p.default), "origin": p.origin.word(), "about": p.about.trim(),
         })

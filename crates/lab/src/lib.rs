@@ -1,3 +1,7 @@
 //! `lab`: files that say what they are, the run store, executors, reports. It knows nothing of HTTP.
 
+pub mod file;
 pub mod report;
+pub mod run;
+pub mod scenario;
+pub mod store;

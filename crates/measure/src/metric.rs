@@ -1,6 +1,7 @@
 //! What a metric is: its card, its value, and the door by which the list is used.
 
 use crate::Sample;
+use space::spelling::nearest;
 use space::{Frame, Real};
 
 /// Which members enter a metric.
@@ -115,7 +116,7 @@ impl<M: Metric, const D: usize> Measure<D> for M {
             return Err(MeasureError::UnknownParameter {
                 metric: M::CARD.id,
                 name: name.to_owned(),
-                nearest: nearest_name(name, names),
+                nearest: nearest(name, names),
             });
         };
         if !(value.is_finite() && value > 0.0) {
@@ -136,7 +137,7 @@ pub enum MeasureError {
     UnknownMetric {
         /// The id given.
         id: String,
-        /// The nearest id there is.
+        /// The id that may have been meant.
         nearest: Option<&'static str>,
     },
     /// The metric has no parameter of this name.
@@ -145,7 +146,7 @@ pub enum MeasureError {
         metric: &'static str,
         /// The name given.
         name: String,
-        /// The nearest name there is.
+        /// The name that may have been meant.
         nearest: Option<&'static str>,
     },
     /// The value is not a finite number above zero.
@@ -181,21 +182,3 @@ impl core::fmt::Display for MeasureError {
     }
 }
 impl core::error::Error for MeasureError {}
-
-/// The name nearest to `name` by edit distance.
-pub(crate) fn nearest_name(name: &str, among: impl Iterator<Item = &'static str>) -> Option<&'static str> {
-    among.min_by_key(|other| {
-        // Levenshtein's distance, row by row
-        let mut row: Vec<usize> = (0..=other.chars().count()).collect();
-        for (i, a) in name.chars().enumerate() {
-            let mut diagonal = row[0];
-            row[0] = i + 1;
-            for (j, b) in other.chars().enumerate() {
-                let changed = diagonal + usize::from(a != b);
-                diagonal = row[j + 1];
-                row[j + 1] = changed.min(diagonal + 1).min(row[j] + 1);
-            }
-        }
-        row[row.len() - 1]
-    })
-}

@@ -13,6 +13,7 @@ pub mod parallel;
 pub mod random;
 mod real;
 pub mod shape;
+pub mod spelling;
 mod vector;
 pub mod voronoi;
 

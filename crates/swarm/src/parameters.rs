@@ -2,6 +2,7 @@
 //! everything that help, schema, sliders and genomes need to know.
 
 use space::Real;
+use space::spelling::nearest;
 use std::collections::BTreeMap;
 
 /// A parameter as a file or a command line gives it.
@@ -73,7 +74,7 @@ pub enum ParameterError {
     Unknown {
         /// The name given.
         name: String,
-        /// The nearest name there is.
+        /// The name that may have been meant.
         nearest: Option<String>,
     },
     /// The value has the wrong type.
@@ -104,7 +105,7 @@ impl core::fmt::Display for ParameterError {
             Self::Unknown { name, nearest: Some(nearest) } => {
                 write!(out, "unknown parameter `{name}`; did you mean `{nearest}`?")
             }
-            Self::Unknown { name, nearest: None } => write!(out, "unknown parameter `{name}`; the model has none"),
+            Self::Unknown { name, nearest: None } => write!(out, "unknown parameter `{name}`"),
             Self::Type { name, expected, found } => write!(out, "`{name}` takes {expected}, found {found}"),
             Self::Range { name, expected, found } => write!(out, "`{name}` must be {expected}, found {found}"),
             Self::Together(text) => write!(out, "{text}"),
@@ -172,6 +173,45 @@ impl Origin {
     }
 }
 
+/// What kind of value a parameter takes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A number.
+    Number,
+    /// A whole number.
+    Whole,
+    /// True or false.
+    Truth,
+    /// One of these words.
+    Word(Vec<&'static str>),
+    /// A list, each entry of this kind.
+    List(Box<Kind>),
+    /// A value for all members, or a list with one each.
+    PerAgent(Box<Kind>),
+    /// A point, a list with one for each member, or an empty list.
+    Points,
+}
+
+impl core::fmt::Display for Kind {
+    fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Number => write!(out, "a number"),
+            Self::Whole => write!(out, "a whole number"),
+            Self::Truth => write!(out, "true or false"),
+            Self::Word(words) => {
+                let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+                write!(out, "one of {}", quoted.join(", "))
+            }
+            Self::List(entry) => write!(out, "a list, each entry {entry}"),
+            Self::PerAgent(one) => write!(out, "{one}, or a list with one for each member"),
+            Self::Points => write!(
+                out,
+                "a point as a list of coordinates, a list with one point for each member, or an empty list"
+            ),
+        }
+    }
+}
+
 /// Everything there is to know about one parameter.
 #[derive(Clone, Debug)]
 pub struct Descriptor {
@@ -189,16 +229,18 @@ pub struct Descriptor {
     pub default: Value,
     /// Where the default comes from.
     pub origin: Origin,
-    /// What kind of value it takes, in words.
-    pub takes: String,
+    /// What kind of value it takes.
+    pub takes: Kind,
+    /// Whether a value is of the right kind and in range.
+    pub check: Check,
     /// One sentence.
     pub about: &'static str,
 }
 
 /// A type a parameter can have.
 pub trait Parameter: Sized {
-    /// What it takes, in words.
-    fn takes() -> String;
+    /// What it takes.
+    fn takes() -> Kind;
     /// From a value; `None` if the type is wrong.
     fn read(value: &Value) -> Option<Self>;
     /// Back to a value.
@@ -210,8 +252,8 @@ pub trait Parameter: Sized {
 macro_rules! number_parameter {
     ($t:ident) => {
         impl Parameter for $t {
-            fn takes() -> String {
-                "a number".into()
+            fn takes() -> Kind {
+                Kind::Number
             }
             fn read(value: &Value) -> Option<Self> {
                 if let Value::Number(number) = value { Some(*number as $t) } else { None }
@@ -229,8 +271,8 @@ number_parameter!(f32);
 number_parameter!(f64);
 
 impl Parameter for usize {
-    fn takes() -> String {
-        "a whole number".into()
+    fn takes() -> Kind {
+        Kind::Whole
     }
     fn read(value: &Value) -> Option<Self> {
         match value {
@@ -246,8 +288,8 @@ impl Parameter for usize {
     }
 }
 impl Parameter for bool {
-    fn takes() -> String {
-        "true or false".into()
+    fn takes() -> Kind {
+        Kind::Truth
     }
     fn read(value: &Value) -> Option<Self> {
         if let Value::Truth(truth) = value { Some(*truth) } else { None }
@@ -258,8 +300,8 @@ impl Parameter for bool {
     fn numbers(&self, _: &mut dyn FnMut(f64)) {}
 }
 impl<T: Parameter> Parameter for Vec<T> {
-    fn takes() -> String {
-        format!("a list, each entry {}", T::takes())
+    fn takes() -> Kind {
+        Kind::List(Box::new(T::takes()))
     }
     fn read(value: &Value) -> Option<Self> {
         if let Value::List(list) = value { list.iter().map(T::read).collect() } else { None }
@@ -296,8 +338,8 @@ impl<T> PerAgent<T> {
 }
 
 impl<T: Parameter> Parameter for PerAgent<T> {
-    fn takes() -> String {
-        format!("{}, or a list with one for each member", T::takes())
+    fn takes() -> Kind {
+        Kind::PerAgent(Box::new(T::takes()))
     }
     fn read(value: &Value) -> Option<Self> {
         if let Some(one) = T::read(value) {
@@ -332,8 +374,8 @@ impl<R: Scalar> Points<R> {
 }
 
 impl<R: Scalar> Parameter for Points<R> {
-    fn takes() -> String {
-        "a point as a list of coordinates, a list with one point for each member, or an empty list".into()
+    fn takes() -> Kind {
+        Kind::Points
     }
     fn read(value: &Value) -> Option<Self> {
         if let Some(point) = Vec::<R>::read(value) {
@@ -367,33 +409,20 @@ pub trait Parameters: Sized + Clone {
     fn values(&self) -> Values;
 }
 
-/// The name nearest to `name` by edit distance.
-pub fn nearest<'a>(name: &str, among: impl Iterator<Item = &'a str>) -> Option<String> {
-    among.min_by_key(|other| distance(name, other)).map(str::to_owned)
-}
-
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, &cb) in b.iter().enumerate() {
-            let cost = diagonal + usize::from(!ca.eq_ignore_ascii_case(&cb));
-            diagonal = row[j + 1];
-            row[j + 1] = cost.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
-}
+/// A descriptor's check of a value given for it.
+pub type Check = fn(&Descriptor, &Value) -> Result<(), ParameterError>;
 
 /// The value given for a parameter, or its default, checked.
 pub fn take<T: Parameter>(descriptor: &Descriptor, values: &Values) -> Result<T, ParameterError> {
     let given = values.get(descriptor.name).or_else(|| descriptor.alias.and_then(|alias| values.get(alias)));
-    let value = given.unwrap_or(&descriptor.default);
+    checked(descriptor, given.unwrap_or(&descriptor.default))
+}
+
+/// A value read as what a parameter takes, with its numbers in range.
+pub fn checked<T: Parameter>(descriptor: &Descriptor, value: &Value) -> Result<T, ParameterError> {
     let read = T::read(value).ok_or_else(|| ParameterError::Type {
         name: descriptor.name.into(),
-        expected: T::takes(),
+        expected: T::takes().to_string(),
         found: value.to_string(),
     })?;
     let mut outside = None;
@@ -417,7 +446,7 @@ pub fn known(descriptors: &[Descriptor], values: &Values) -> Result<(), Paramete
     for name in values.keys() {
         if !descriptors.iter().any(|d| d.name == name || d.alias == Some(name)) {
             let names = descriptors.iter().flat_map(|d| [Some(d.name), d.alias].into_iter().flatten());
-            return Err(ParameterError::Unknown { name: name.clone(), nearest: nearest(name, names) });
+            return Err(ParameterError::Unknown { name: name.clone(), nearest: nearest(name, names).map(str::to_owned) });
         }
     }
     for d in descriptors {
@@ -462,6 +491,7 @@ macro_rules! parameters {
                     default: Value::from($default),
                     origin: $crate::parameters::Origin::$origin,
                     takes: <$type as Parameter>::takes(),
+                    check: |descriptor, value| $crate::parameters::checked::<$type>(descriptor, value).map(|_| ()),
                     about: $about,
                 },)*]
             }
@@ -498,8 +528,8 @@ macro_rules! choice {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum $name { $($(#[$about])* $variant,)* }
         impl $crate::parameters::Parameter for $name {
-            fn takes() -> String {
-                format!("one of {}", [$(concat!("\"", $word, "\"")),*].join(", "))
+            fn takes() -> $crate::parameters::Kind {
+                $crate::parameters::Kind::Word(vec![$($word),*])
             }
             fn read(value: &$crate::parameters::Value) -> Option<Self> {
                 match value {

@@ -15,6 +15,8 @@ mod ticks;
 
 pub use document::html;
 
+pub mod of_run;
+
 /// A page.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Page {

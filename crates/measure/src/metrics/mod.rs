@@ -1,8 +1,8 @@
 //! The metrics: one file each, one line each in the list below. Files, tables, help and law tests are made from the
 //! list.
 
-use crate::metric::nearest_name;
 use crate::{Measure, MeasureError, Metric, MetricCard, Sample};
+use space::spelling::nearest;
 use space::{Frame, GroupRange, Real};
 
 macro_rules! metrics {
@@ -40,7 +40,7 @@ metrics! {
 pub fn find<const D: usize>(id: &str) -> Result<Box<dyn Measure<D>>, MeasureError> {
     all::<D>().into_iter().find(|metric| metric.card().id == id).ok_or_else(|| MeasureError::UnknownMetric {
         id: id.to_owned(),
-        nearest: nearest_name(id, LIST.iter().map(|card| card.id)),
+        nearest: nearest(id, LIST.iter().map(|card| card.id)),
     })
 }
 

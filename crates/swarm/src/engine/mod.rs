@@ -1,5 +1,6 @@
 //! The world and its engine: the only hot loop, the drivers, checkpoints.
 
+mod checkpoint;
 mod contacts;
 mod kernel;
 mod plan;

@@ -192,8 +192,8 @@ pub enum WorldError {
     Model {
         /// The id asked for.
         id: String,
-        /// The nearest id there is.
-        nearest: String,
+        /// The id that may have been meant.
+        nearest: Option<&'static str>,
     },
     /// The model does not work in this many dimensions.
     Dimension {
@@ -225,7 +225,10 @@ pub enum WorldError {
 impl core::fmt::Display for WorldError {
     fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::Model { id, nearest } => write!(out, "unknown model `{id}`; did you mean `{nearest}`?"),
+            Self::Model { id, nearest: Some(nearest) } => {
+                write!(out, "unknown model `{id}`; did you mean `{nearest}`?")
+            }
+            Self::Model { id, nearest: None } => write!(out, "unknown model `{id}`"),
             Self::Dimension { id, asked, works } => {
                 let works: Vec<String> = works.iter().map(ToString::to_string).collect();
                 write!(out, "`{id}` works in {} dimensions, not in {asked}", works.join(" or "))

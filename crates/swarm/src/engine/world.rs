@@ -5,13 +5,14 @@ use crate::engine::kernel::{Index, Kernel, Scratch, Sensing, Stages, View};
 use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
 use crate::models::{self, Catalogue, Models};
 use crate::motion::{Injected, Motion, Start as Completion};
-use crate::parameters::{Scalar, nearest};
+use crate::parameters::Scalar;
 use crate::physics::{Contact, Met, Mobility};
 use crate::resources::Resources;
 use crate::selection::{NamedSet, Perception, Reach};
 use crate::sensing::robot::Memory;
 use space::obstacles::Obstacles;
 use space::parallel::Workers;
+use space::spelling::nearest;
 use space::random::{Purpose, Stream as DrawStream, unit_vector};
 use space::{Column, Columns, Frame, Grid, GroupRange, LiveGrid, PADDING, Real, Space, Vector};
 
@@ -85,6 +86,22 @@ pub struct World<R: Scalar, const D: usize> {
     pub(crate) places: [Vec<R>; D],
     /// Rows whose move is known to meet neither wall nor obstacle.
     pub(crate) clear: Vec<bool>,
+}
+
+impl<R: Scalar, const D: usize> Group<R, D> {
+    /// Whether the group has a declared column of the world, by its place among them.
+    pub fn declares(&self, column: usize) -> bool {
+        let stages = self.kernel.stages();
+        stages.columns.contains(&column) || stages.body_columns.contains(&column)
+    }
+    /// What happens to its bodies where the way is not free.
+    pub fn contact(&self) -> Contact {
+        self.contact
+    }
+    /// Radius of its bodies.
+    pub fn radius(&self) -> R {
+        self.radius
+    }
 }
 
 impl<R: Scalar, const D: usize> World<R, D>
@@ -560,6 +577,10 @@ impl<R: Scalar, const D: usize> World<R, D> {
         }
         total
     }
+    /// Which declared column tells the dead, at 0, from the living; none where nobody can die.
+    pub fn mortality(&self) -> Option<usize> {
+        self.resources.as_ref().and_then(Resources::mortality)
+    }
     /// The groups.
     pub fn groups(&self) -> &[Group<R, D>] {
         &self.groups
@@ -602,6 +623,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
             clocks: self.clocks.clone(),
             memory,
             met_total: self.met_total,
+            errors: self.detection_errors(),
         }
     }
     /// Continues from a saved state of a world of the same plan.
@@ -631,6 +653,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.resources = saved.resources.clone();
         self.clocks = saved.clocks.clone();
         self.met_total = saved.met_total;
+        for (k, scratch) in self.scratch.iter_mut().enumerate() {
+            scratch.robot.errors = if k == 0 { saved.errors } else { ErrorCount::default() };
+        }
         self.live = None;
         self.obstacles.advance(self.time);
         self.settle();
@@ -641,13 +666,14 @@ impl<R: Scalar, const D: usize> World<R, D> {
 /// A saved state.
 #[derive(Clone, Debug)]
 pub struct Checkpoint<R, const D: usize> {
-    columns: Columns<R, D>,
-    step: u64,
-    time: f64,
-    resources: Option<Resources<R, D>>,
-    clocks: Clocks<R, D>,
-    memory: Vec<f64>,
-    met_total: [u64; 4],
+    pub(crate) columns: Columns<R, D>,
+    pub(crate) step: u64,
+    pub(crate) time: f64,
+    pub(crate) resources: Option<Resources<R, D>>,
+    pub(crate) clocks: Clocks<R, D>,
+    pub(crate) memory: Vec<f64>,
+    pub(crate) met_total: [u64; 4],
+    pub(crate) errors: ErrorCount,
 }
 
 /// Unit headings, several rows at a time.
@@ -703,7 +729,7 @@ where
             Some(entry) => WorldError::Dimension { id: group.model.clone(), asked: D, works: entry.dimensions },
             None => WorldError::Model {
                 id: group.model.clone(),
-                nearest: nearest(&group.model, models::LIST.iter().map(|e| e.card.id)).unwrap_or_default(),
+                nearest: nearest(&group.model, models::LIST.iter().map(|e| e.card.id)),
             },
         }),
     }

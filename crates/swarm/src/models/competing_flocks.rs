@@ -7,7 +7,7 @@
 use crate::card::*;
 use crate::motion::*;
 use crate::parameters;
-use crate::parameters::{Parameter, PerAgent, Scalar, Value};
+use crate::parameters::{Kind, Parameter, PerAgent, Scalar, Value};
 use crate::physics::Contact;
 use crate::selection::{NamedSet, Perception};
 use space::lanes::{Lanes, Mask};
@@ -35,7 +35,7 @@ impl Flocks {
 }
 
 impl Parameter for Flocks {
-    fn takes() -> String {
+    fn takes() -> Kind {
         PerAgent::<usize>::takes()
     }
     fn read(value: &Value) -> Option<Self> {

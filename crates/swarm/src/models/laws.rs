@@ -1,6 +1,6 @@
 //! Laws that hold for every listed model, whatever it says: generated from the list.
 
-use crate::engine::{
+use crate::engine::{Checkpoint, 
     Clock, Driver, GroupPlan, IndexChoice, Order, Phase, Placement, Start, World, WorldError, WorldPlan,
 };
 use crate::models::{Catalogue, Entry, LIST, Models};
@@ -323,8 +323,8 @@ fn bits_never_change() {
             }
             let mut before = world::<R, D>(contract_plan(entry, 72, 2));
             before.run(STEPS / 3);
-            let saved = before.save();
             let mut after = world::<R, D>(contract_plan(entry, 72, 3));
+            let saved = through_bytes(&before, &after);
             after.restore(&saved).unwrap_or_else(|error| unreachable!("{error}"));
             after.run(STEPS - STEPS / 3);
             assert_eq!(after.frame().hash(), one, "{id} {D}-D {}: stopped and continued", R::NAME);
@@ -430,7 +430,8 @@ fn drivers_continue_and_repeat() {
         let mut before = make(2);
         before.run(700);
         let mut after = make(8);
-        assert!(after.restore(&before.save()).is_ok());
+        let saved = through_bytes(&before, &after);
+        assert!(after.restore(&saved).is_ok());
         after.run(1300);
         assert_eq!(one.frame().hash(), after.frame().hash(), "driver {k}");
         let _ = writeln!(found, "driver {k} {:016x}", one.frame().hash());
@@ -448,4 +449,18 @@ fn the_hash_sees_a_single_bit() {
         world(plan(entry, Values::new(), Space::open(), at, velocities(10))).frame().hash()
     };
     assert_ne!(hash(0.0), hash(1e-15));
+}
+
+/// A state as it comes back from a file, and proof that damage is noticed.
+fn through_bytes<R: Scalar, const D: usize>(before: &World<R, D>, like: &World<R, D>) -> Checkpoint<R, D>
+where
+    Models: Catalogue<R, D>,
+{
+    let (bytes, like) = (before.save().to_bytes(), like.save());
+    assert!(Checkpoint::from_bytes(&bytes[..bytes.len() - 1], &like).is_none(), "a state cut short");
+    assert!(Checkpoint::from_bytes(&bytes[1..], &like).is_none(), "a state that begins elsewhere");
+    match Checkpoint::from_bytes(&bytes, &like) {
+        Some(saved) => saved,
+        None => unreachable!("a saved state reads back"),
+    }
 }

@@ -31,6 +31,25 @@ pub struct Prepared<R, const D: usize> {
     pub(crate) stream_reach: Option<R>,
 }
 
+impl<R: Scalar, const D: usize> Prepared<R, D> {
+    /// Radius of a body, unless a group says otherwise.
+    pub fn body_radius(&self) -> R {
+        self.body_radius
+    }
+    /// Speed at which members begin, unless their velocities are given.
+    pub fn initial_speed(&self) -> R {
+        self.initial_speed
+    }
+    /// Time of a step.
+    pub fn time_step(&self) -> R {
+        self.time_step
+    }
+    /// Names of the sets that the selection stage makes for it.
+    pub fn set_names(&self) -> Vec<&'static str> {
+        self.sets.iter().map(|set| set.name).collect()
+    }
+}
+
 fn prepared<R: Scalar, const D: usize, M: Law<R>>(
     law: M,
     members: usize,

@@ -1,0 +1,346 @@
+//! The model of a group, with its parameters; values that differ from member to member.
+
+use crate::file::form::{Variant, place_of};
+use crate::file::{Desk, Field, Form, Node, Rule, Shape, Span, Tree};
+use crate::tagged;
+use space::random::{Purpose, uniform};
+use space::spelling::nearest;
+use swarm::models;
+use swarm::parameters::{Descriptor, Kind, ParameterError, Range, Value};
+
+tagged! {
+    /// A distribution over the members of a group.
+    pub enum Distribution {
+        /// Normal: mean and standard deviation. Values outside the range of the parameter are set to its nearest end.
+        normal => Normal(Vec<f64>);
+        /// Uniform between two ends.
+        uniform => Uniform(Vec<f64>);
+    }
+}
+
+impl Distribution {
+    /// Notes what cannot be.
+    fn checked(self, span: &Span, desk: &mut Desk) -> Option<Self> {
+        let (what, fine) = match &self {
+            Self::Normal(v) => ("normal takes [mean, standard deviation], the second 0 or more", v.len() == 2 && v[1] >= 0.0),
+            Self::Uniform(v) => ("uniform takes [least, greatest], the first not above the second", v.len() == 2 && v[0] <= v[1]),
+        };
+        if !fine {
+            desk.problem(span, what, "two numbers in order", "");
+        }
+        fine.then_some(self)
+    }
+    /// The value of a member. The draws depend on the seed, the name of the quantity and the member's id alone.
+    pub fn of(&self, seed: u64, name: &str, id: u32) -> f64 {
+        // FNV-1a: a stream of its own for every quantity
+        let hash = name.bytes().fold(0x811c_9dc5u32, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
+        let a = (1 << 43) | u64::from(hash);
+        let draw = |slot: u32| uniform(seed, Purpose::Init, a, id.wrapping_mul(8).wrapping_add(slot));
+        match self {
+            Self::Normal(v) => v[0] + v[1] * space::random::normal(draw(0), draw(1)),
+            Self::Uniform(v) => v[0] + (v[1] - v[0]) * draw(0),
+        }
+    }
+}
+
+/// A number for all members, a list with one each, or a distribution.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PerMember {
+    /// The same for all.
+    All(f64),
+    /// One each.
+    Each(Vec<f64>),
+    /// Drawn for each.
+    Drawn(Distribution),
+}
+
+impl Form for PerMember {
+    fn read(node: &Node, rule: &Rule<'_>, desk: &mut Desk) -> Option<Self> {
+        match &node.tree {
+            Tree::Table(_) => Distribution::read(node, rule, desk)?.checked(&node.span, desk).map(Self::Drawn),
+            Tree::List(_) => Vec::read(node, rule, desk).map(Self::Each),
+            _ => f64::read(node, rule, desk).map(Self::All),
+        }
+    }
+    fn shape(rule: &Rule<'_>) -> Shape {
+        Shape::Either(vec![f64::shape(rule), Vec::<f64>::shape(rule), Distribution::shape(rule)])
+    }
+    fn write(&self) -> Tree {
+        match self {
+            Self::All(value) => value.write(),
+            Self::Each(values) => values.write(),
+            Self::Drawn(distribution) => distribution.write(),
+        }
+    }
+}
+
+impl PerMember {
+    /// The values of `count` members from the id `first` on; `Err` with the number of values where that is another.
+    pub fn values(&self, count: usize, seed: u64, name: &str, first: u32) -> Result<Vec<f64>, usize> {
+        match self {
+            Self::All(value) => Ok(vec![*value; count]),
+            Self::Each(values) if values.len() == count => Ok(values.clone()),
+            Self::Each(values) => Err(values.len()),
+            Self::Drawn(distribution) => Ok((0..count as u32).map(|k| distribution.of(seed, name, first + k)).collect()),
+        }
+    }
+}
+
+/// A parameter's value as written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Given {
+    /// A value.
+    Value(Value),
+    /// Drawn for each member.
+    Drawn(Distribution),
+}
+
+/// A model with the parameters that were written, by their full names; angles in degrees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Its id.
+    pub id: String,
+    /// Parameters by full name.
+    pub parameters: Vec<(String, Given)>,
+}
+
+impl Model {
+    /// The descriptors of its parameters.
+    pub fn descriptors(&self) -> Vec<Descriptor> {
+        models::find(&self.id).map_or_else(Vec::new, |entry| (entry.parameters)())
+    }
+    /// The values for a group of `count` members from the id `first` on, angles in radians.
+    pub fn values(&self, count: usize, seed: u64, first: u32) -> swarm::parameters::Values {
+        let descriptors = self.descriptors();
+        let mut values = swarm::parameters::Values::new();
+        for (name, given) in &self.parameters {
+            let Some(descriptor) = descriptors.iter().find(|d| d.name == name) else { continue };
+            let value = match given {
+                Given::Value(value) => value.clone(),
+                Given::Drawn(distribution) => {
+                    let of = |k| clamped(descriptor.range, distribution.of(seed, name, first + k));
+                    Value::List((0..count as u32).map(|k| Value::Number(of(k))).collect())
+                }
+            };
+            values.insert(name.clone(), if in_radians(descriptor) { radians(value) } else { value });
+        }
+        values
+    }
+}
+
+fn clamped(range: Range, value: f64) -> f64 {
+    match range {
+        Range::Any => value,
+        Range::NonNegative => value.max(0.0),
+        Range::Positive => value.max(1e-9),
+        Range::Within(low, high) => value.clamp(low, high),
+    }
+}
+
+/// Whether the model computes it in radians, so that a file gives it in degrees.
+pub fn in_radians(descriptor: &Descriptor) -> bool {
+    descriptor.unit == "rad" || descriptor.unit.starts_with("rad/")
+}
+
+/// The unit of a parameter in a file.
+pub fn unit_in_files(descriptor: &Descriptor) -> String {
+    if in_radians(descriptor) { descriptor.unit.replacen("rad", "deg", 1) } else { descriptor.unit.to_owned() }
+}
+
+fn radians(value: Value) -> Value {
+    match value {
+        Value::Number(number) => Value::Number(number.to_radians()),
+        Value::List(list) => Value::List(list.into_iter().map(radians).collect()),
+        other => other,
+    }
+}
+
+fn degrees(value: Value) -> Value {
+    match value {
+        Value::Number(number) => Value::Number(number.to_degrees()),
+        Value::List(list) => Value::List(list.into_iter().map(degrees).collect()),
+        other => other,
+    }
+}
+
+/// The default of a parameter as a file would give it.
+pub fn default_in_files(descriptor: &Descriptor) -> Value {
+    let default = descriptor.default.clone();
+    if in_radians(descriptor) { degrees(default) } else { default }
+}
+
+fn tree_of(value: &Value) -> Tree {
+    match value {
+        Value::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => Tree::Whole(*number as i64),
+        Value::Number(number) => Tree::Number(*number),
+        Value::Truth(truth) => Tree::Truth(*truth),
+        Value::Text(text) => Tree::Text(text.clone()),
+        Value::List(list) => Tree::list(list.iter().map(tree_of)),
+    }
+}
+
+fn value_of(tree: &Tree) -> Option<Value> {
+    Some(match tree {
+        Tree::Number(_) | Tree::Whole(_) => Value::Number(tree.number()?),
+        Tree::Truth(truth) => Value::Truth(*truth),
+        Tree::Text(text) => Value::Text(text.clone()),
+        Tree::List(list) => Value::List(list.iter().map(|n| value_of(&n.tree)).collect::<Option<_>>()?),
+        Tree::Table(_) => return None,
+    })
+}
+
+impl Form for Model {
+    fn read(node: &Node, rule: &Rule<'_>, desk: &mut Desk) -> Option<Self> {
+        let (id, span, below) = match &node.tree {
+            Tree::Text(id) => (id.as_str(), &node.span, None),
+            Tree::Table(entries) => match entries.as_slice() {
+                [one] => (one.key.as_str(), &one.span, Some(one)),
+                [] => {
+                    desk.problem(&node.span, "no model is named", "the id of a model", "`flockworks models` lists them");
+                    return None;
+                }
+                [_, second, ..] => {
+                    let what = format!("a group has one model; `{}` is a second one", second.key);
+                    desk.problem(&second.span, what, "one model too many", "give it a group of its own");
+                    return None;
+                }
+            },
+            _ => {
+                desk.kind(node, rule, "the id of a model");
+                return None;
+            }
+        };
+        let Some(entry) = models::find(id) else {
+            let ids = models::LIST.iter().map(|e| e.card.id);
+            let help = match nearest(id, ids) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "`flockworks models` lists them".to_owned(),
+            };
+            desk.problem(span, format!("unknown model `{id}`"), "not the id of a model", help);
+            return None;
+        };
+        let descriptors = (entry.parameters)();
+        let mut read = Vec::new();
+        let mut fine = true;
+        if let Some(one) = below {
+            let entries = desk.table(&Node { tree: one.node.tree.clone(), span: place_of(one) }, rule)?.to_vec();
+            for entry in &entries {
+                match parameter(&descriptors, id, entry, desk) {
+                    Some((name, _)) if read.iter().any(|(other, _)| *other == name) => {
+                        let what = format!("`{}` is `{name}`, which is given already", entry.key);
+                        desk.problem(&entry.span, what, "given twice", "leave one of them out");
+                        fine = false;
+                    }
+                    Some(given) => read.push(given),
+                    None => fine = false,
+                }
+            }
+        }
+        fine.then(|| Self { id: id.to_owned(), parameters: read })
+    }
+    fn shape(_: &Rule<'_>) -> Shape {
+        fn variants() -> Vec<Variant> {
+            let variant = |entry: &models::Entry| {
+                let fields = (entry.parameters)().iter().map(field).collect();
+                Variant { name: entry.card.id, about: entry.card.about, shape: Shape::Fields(fields) }
+            };
+            models::LIST.iter().map(variant).collect()
+        }
+        Shape::Tagged { name: "Model", about: "A model, by its id, with its parameters.", variants }
+    }
+    fn write(&self) -> Tree {
+        let values = self.descriptors().into_iter().map(|descriptor| {
+            let given = self.parameters.iter().find(|(name, _)| name == descriptor.name).map(|(_, given)| given);
+            let tree = match given {
+                Some(Given::Value(value)) => tree_of(value),
+                Some(Given::Drawn(distribution)) => distribution.write(),
+                None => tree_of(&default_in_files(&descriptor)),
+            };
+            (descriptor.name.to_owned(), tree)
+        });
+        Tree::table([(self.id.clone(), Tree::table(values))])
+    }
+}
+
+fn parameter(
+    descriptors: &[Descriptor],
+    model: &str,
+    entry: &crate::file::tree::Entry,
+    desk: &mut Desk,
+) -> Option<(String, Given)> {
+    let key = entry.key.as_str();
+    let Some(descriptor) = descriptors.iter().find(|d| d.name == key || d.alias == Some(key)) else {
+        let names = descriptors.iter().flat_map(|d| [Some(d.name), d.alias].into_iter().flatten());
+        let help = match nearest(key, names) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("`flockworks models {model}` lists its parameters"),
+        };
+        desk.problem(&entry.span, format!("`{model}` has no parameter `{key}`"), "not a parameter of this model", help);
+        return None;
+    };
+    let rule = Rule { name: key, unit: "", range: descriptor.range };
+    let per_agent = matches!(&descriptor.takes, Kind::PerAgent(one) if matches!(**one, Kind::Number));
+    if let Tree::Table(_) = entry.node.tree {
+        if !per_agent {
+            let what = format!("`{key}` takes {}, found a table", descriptor.takes);
+            desk.problem(&place_of(entry), what, format!("expected {}", descriptor.takes), "");
+            return None;
+        }
+        let drawn = Distribution::read(&entry.node, &rule, desk)?.checked(&entry.node.span, desk)?;
+        return Some((descriptor.name.to_owned(), Given::Drawn(drawn)));
+    }
+    let value = value_of(&entry.node.tree)?;
+    let asked = if in_radians(descriptor) { radians(value.clone()) } else { value.clone() };
+    match (descriptor.check)(descriptor, &asked) {
+        Ok(()) => Some((descriptor.name.to_owned(), Given::Value(value))),
+        Err(error) => {
+            let (expected, found) = match &error {
+                ParameterError::Type { expected, .. } => (format!("takes {expected}"), entry.node.tree.describe()),
+                ParameterError::Range { expected, found, .. } => (format!("must be {expected}"), found.clone()),
+                other => (other.to_string(), entry.node.tree.describe()),
+            };
+            let found = if in_radians(descriptor) { entry.node.tree.describe() } else { found };
+            let what = format!("`{key}` {expected}, found {found}");
+            let unit = unit_in_files(descriptor);
+            let unit = if unit == "1" || unit == "-" { String::new() } else { format!(", in {unit}") };
+            desk.problem(&entry.node.span, what, format!("{expected}{unit}"), "");
+            None
+        }
+    }
+}
+
+/// A parameter as a key of a file.
+fn field(descriptor: &Descriptor) -> Field {
+    Field {
+        name: descriptor.name.to_owned(),
+        alias: descriptor.alias,
+        about: descriptor.about.trim().to_owned(),
+        shape: shape_of(&descriptor.takes, descriptor.range),
+        unit: unit_in_files(descriptor),
+        default: Some(tree_of(&default_in_files(descriptor))),
+        required: false,
+    }
+}
+
+fn shape_of(kind: &Kind, range: Range) -> Shape {
+    let number = Shape::Number { unit: "", range };
+    match kind {
+        Kind::Number => number,
+        Kind::Whole => Shape::Whole { unit: "", range },
+        Kind::Truth => Shape::Truth,
+        Kind::Word(words) => Shape::Word(words.iter().map(|&word| (word, "")).collect()),
+        Kind::List(entry) => Shape::List(Box::new(shape_of(entry, range))),
+        Kind::PerAgent(one) => {
+            let one = shape_of(one, range);
+            let mut either = vec![one.clone(), Shape::List(Box::new(one))];
+            if matches!(kind, Kind::PerAgent(one) if matches!(**one, Kind::Number)) {
+                either.push(Distribution::shape(&Rule::FREE));
+            }
+            Shape::Either(either)
+        }
+        Kind::Points => {
+            let point = Shape::List(Box::new(number));
+            Shape::Either(vec![point.clone(), Shape::List(Box::new(point))])
+        }
+    }
+}

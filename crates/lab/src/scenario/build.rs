@@ -1,0 +1,515 @@
+//! From a scenario as written to a world that can be stepped.
+
+use super::{Clock, Driver, Edges, Group, Order, Phase, Precision, Scenario, Sensing, Space as WrittenSpace, Start};
+use crate::file::form::place_of;
+use crate::file::tree::{parse, parse_value};
+use crate::file::{Desk, Form, Node, Problem, Problems, Rule, Sources, Span};
+use space::obstacles::Obstacles;
+use space::{Edge, Real, Space, Vector};
+use swarm::engine::{self as plan, GroupPlan, IndexChoice, Placement, WorldError, WorldPlan};
+use swarm::models::{Catalogue, Models};
+use swarm::parameters::{ParameterError, Scalar};
+
+/// Something wrong at a path of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wrong {
+    /// The path, as in `group.fish.count`.
+    pub path: String,
+    /// What is wrong.
+    pub what: String,
+    /// What was expected there.
+    pub expected: String,
+    /// What would help; may be empty.
+    pub help: String,
+}
+
+impl Wrong {
+    /// Something wrong at a path.
+    pub fn new(path: impl Into<String>, what: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self { path: path.into(), what: what.into(), expected: expected.into(), help: String::new() }
+    }
+    /// The same with a remedy.
+    #[must_use]
+    pub fn help(mut self, help: &str) -> Self {
+        self.help = help.to_owned();
+        self
+    }
+    /// The same below another path.
+    #[must_use]
+    pub fn below(mut self, path: &str) -> Self {
+        self.path = if self.path.is_empty() { path.to_owned() } else { format!("{path}.{}", self.path) };
+        self
+    }
+}
+
+/// A vector from numbers.
+///
+/// # Errors
+/// Another number of them than the space has dimensions.
+pub fn vector<R: Real, const D: usize>(numbers: &[f64]) -> Result<Vector<R, D>, String> {
+    if numbers.len() == D {
+        return Ok(Vector(core::array::from_fn(|a| R::of(numbers[a]))));
+    }
+    Err(format!("{} coordinates in a space of {D} dimensions", numbers.len()))
+}
+
+/// A scenario file as read: what it says, and where it says it.
+#[derive(Clone, Debug)]
+pub struct Read {
+    /// The texts.
+    pub sources: Sources,
+    /// The tree, with what `--set` put into it.
+    pub tree: Node,
+    /// What it says.
+    pub scenario: Scenario,
+}
+
+/// Reads a scenario from its text and the values put over it (`path=value`), and checks that a world can be made.
+///
+/// # Errors
+/// Everything that is wrong with it, at its place.
+pub fn read(name: &str, text: &str, sets: &[String]) -> Result<Read, Problems> {
+    let mut sources = Sources::default();
+    let file = sources.add(name, text);
+    let mut desk = Desk::default();
+    if text.trim().is_empty() {
+        desk.problem(&Span::default(), "the file is empty", "expected `kind = \"scenario\"`", "`flockworks new scenario` writes one to start from");
+        return Err(Problems::new(sources, desk.problems));
+    }
+    let mut tree = parse(&sources, file, &mut desk.problems);
+    let damaged = !desk.problems.is_empty();
+    let mut paths: Vec<String> = Vec::new();
+    for set in sets {
+        let source = sources.add("--set", set);
+        let span = Span { source, bytes: 0..set.len() };
+        let Some((path, _)) = set.split_once('=') else {
+            desk.problem(&span, format!("`{set}` has no `=`"), "expected path=value", "");
+            continue;
+        };
+        let path = path.trim();
+        if paths.iter().any(|other| other == path) {
+            desk.problem(&span, format!("`{path}` is set twice"), "set already", "");
+            continue;
+        }
+        paths.push(path.to_owned());
+        let from = set.find('=').map_or(0, |at| at + 1);
+        let from = from + set[from..].len() - set[from..].trim_start().len();
+        let value = parse_value(&sources, source, from, &mut desk.problems);
+        let node = Node { span: span.clone(), ..value };
+        if let Err(problem) = tree.set(path, node) {
+            desk.problem(&span, problem, "names no place in the file", "");
+        }
+    }
+    if damaged {
+        // what follows from text that could not be read would only confuse
+        return Err(Problems::new(sources, desk.problems));
+    }
+    let scenario = read_kind(&tree, &mut desk).and_then(|()| Scenario::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut desk));
+    let Some(scenario) = scenario.filter(|_| desk.problems.is_empty()) else {
+        return Err(Problems::new(sources, desk.problems));
+    };
+    let wrongs = check(&scenario);
+    if wrongs.is_empty() {
+        return Ok(Read { sources, tree, scenario });
+    }
+    for wrong in wrongs {
+        let span = tree.place(&wrong.path);
+        desk.problems.push(Problem { span, what: wrong.what, expected: wrong.expected, help: wrong.help });
+    }
+    Err(Problems::new(sources, desk.problems))
+}
+
+/// A file that is of no kind is told so, and nothing else.
+fn read_kind(tree: &Node, desk: &mut Desk) -> Option<()> {
+    let crate::file::Tree::Table(entries) = &tree.tree else { return None };
+    match entries.iter().find(|e| e.key == "kind") {
+        Some(entry) => {
+            let rule = Rule { name: "kind", ..Rule::FREE };
+            let node = Node { tree: entry.node.tree.clone(), span: place_of(entry) };
+            super::FileKind::read(&node, &rule, desk).map(|_| ())
+        }
+        None => {
+            let start = Span { source: tree.span.source, bytes: 0..0 };
+            desk.problem(&start, "the file does not say what it is", "`kind` is missing", "begin it with kind = \"scenario\"");
+            None
+        }
+    }
+}
+
+/// The steps of a run, once the models have said how long a step is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Schedule {
+    /// Time of a step (of a tick, for agents on their own clocks).
+    pub step: f64,
+    /// Number of steps.
+    pub steps: u64,
+    /// Steps between two kept frames.
+    pub record: u64,
+    /// Step of the first kept frame.
+    pub record_from: u64,
+    /// Steps between two measurements.
+    pub measure: u64,
+}
+
+/// Frames that are kept unless a file says otherwise.
+const FRAMES: f64 = 600.0;
+/// Largest difference between an interval and a whole number of steps, in steps.
+const WHOLE: f64 = 1e-6;
+
+/// The schedule of a scenario. `quick` makes it a tenth as long.
+///
+/// # Errors
+/// Intervals that are no multiples of the step.
+pub fn schedule(scenario: &Scenario, quick: bool) -> Result<Schedule, Wrong> {
+    let step = match &scenario.time.driver {
+        Driver::Asynchronous(clocks) => clocks.tick,
+        _ => step_of(scenario),
+    };
+    let steps = |time: f64, path: &str| {
+        let steps = time / step;
+        if (steps - steps.round()).abs() > WHOLE * steps.max(1.0) {
+            let (below, above) = (steps.floor() * step, steps.ceil() * step);
+            let what = format!("{time} is no multiple of the step of {step}");
+            return Err(Wrong::new(path, what, format!("nearest are {} and {}", short(below), short(above))));
+        }
+        if steps > 1e15 {
+            return Err(Wrong::new(path, format!("{time} would take {steps:.1e} steps"), "too long"));
+        }
+        Ok(steps.round() as u64)
+    };
+    let mut total = steps(scenario.time.duration, "time.duration")?;
+    if quick {
+        total = total.div_ceil(10);
+    }
+    let interval = |given: Option<f64>, path: &str, default: u64| match given {
+        Some(time) => steps(time, path).and_then(|steps| {
+            if steps > 0 { Ok(steps) } else { Err(Wrong::new(path, "it is shorter than a step", "at least one step")) }
+        }),
+        None => Ok(default),
+    };
+    let record = interval(scenario.record.interval, "record.interval", ((total as f64 / FRAMES).ceil() as u64).max(1))?;
+    let measure = interval(scenario.measure.interval, "measure.interval", record)?;
+    let record_from = steps(scenario.record.from, "record.from")?;
+    if !quick && record_from > total {
+        let what = format!("recording would begin at {}, after the end at {}", scenario.record.from, scenario.time.duration);
+        return Err(Wrong::new("record.from", what, "not after the end"));
+    }
+    Ok(Schedule { step, steps: total, record, record_from: record_from.min(total), measure })
+}
+
+fn short(value: f64) -> String {
+    let text = format!("{value:.9}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The step of the models.
+fn step_of(scenario: &Scenario) -> f64 {
+    if let Some(step) = scenario.time.step {
+        return step;
+    }
+    let own = |(_, group): &(String, Group)| {
+        let descriptors = group.model.descriptors();
+        let descriptor = descriptors.iter().find(|d| d.name == TIME_STEP)?;
+        let given = group.model.values(group.count, 0, 0).remove(TIME_STEP);
+        match given.as_ref().unwrap_or(&descriptor.default) {
+            swarm::parameters::Value::Number(step) => Some(*step),
+            _ => None,
+        }
+    };
+    scenario.group.0.first().map_or(1.0, |group| own(group).unwrap_or(1.0))
+}
+
+/// Name of the parameter by which models are told their step.
+const TIME_STEP: &str = "time_step";
+
+/// Runs `$body` with the precision and the number of dimensions of a scenario as types.
+#[macro_export]
+macro_rules! with_types {
+    ($scenario:expr, $R:ident, $D:ident => $body:expr) => {{
+        use $crate::scenario::Precision;
+        macro_rules! arm {
+            ($real:ty, $dimensions:literal) => {{
+                type $R = $real;
+                const $D: usize = $dimensions;
+                $body
+            }};
+        }
+        match ($scenario.precision, $scenario.space.dimensions) {
+            (Precision::Single, 1) => arm!(f32, 1),
+            (Precision::Single, 2) => arm!(f32, 2),
+            (Precision::Single, _) => arm!(f32, 3),
+            (Precision::Double, 1) => arm!(f64, 1),
+            (Precision::Double, 2) => arm!(f64, 2),
+            (Precision::Double, _) => arm!(f64, 3),
+        }
+    }};
+}
+
+/// Everything about a scenario that stands in the way of a world.
+fn check(scenario: &Scenario) -> Vec<Wrong> {
+    let mut wrongs = Vec::new();
+    if scenario.group.0.is_empty() {
+        wrongs.push(Wrong::new("group", "there is no group", "at least one [group.NAME]"));
+    }
+    for (name, group) in &scenario.group.0 {
+        if name == WHOLE_GROUP {
+            let what = format!("`{WHOLE_GROUP}` names everyone together in the tables");
+            wrongs.push(Wrong::new(format!("group.{name}"), what, "another name"));
+        }
+        if let Some(sensing) = &group.sensing {
+            if let Some((key, what)) = sensing.problem() {
+                wrongs.push(Wrong::new(format!("group.{name}.sensing.laser.{key}"), what, "not possible"));
+            }
+            if matches!(sensing, Sensing::Laser(_)) && scenario.units.length != "m" {
+                let what = format!("a laser's numbers are in metres, and this file's lengths in \"{}\"", scenario.units.length);
+                wrongs.push(
+                    Wrong::new(format!("group.{name}.sensing"), what, "needs metres").help("set units.length = \"m\""),
+                );
+            }
+        }
+    }
+    if let Err(wrong) = schedule(scenario, false) {
+        wrongs.push(wrong);
+    }
+    let measured = match scenario.space.dimensions {
+        1 => super::metrics_of::<1>(scenario).err(),
+        2 => super::metrics_of::<2>(scenario).err(),
+        _ => super::metrics_of::<3>(scenario).err(),
+    };
+    wrongs.extend(measured);
+    if !wrongs.is_empty() {
+        return wrongs;
+    }
+    with_types!(scenario, R, D => match plan::<R, D>(scenario, scenario.seed.unwrap_or(0), 1) {
+        Ok(plan) => swarm::World::new(plan).err().map(|error| of_world(error, scenario)).into_iter().collect(),
+        Err(wrongs) => wrongs,
+    })
+}
+
+/// Name that stands for everyone together in tables.
+pub const WHOLE_GROUP: &str = "all";
+
+/// What the engine refuses, at its place in the file.
+fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
+    let model = |name: &str| {
+        scenario.group.0.iter().find(|(other, _)| other == name).map_or("", |(_, group)| group.model.id.as_str())
+    };
+    match &error {
+        WorldError::Parameter { group, error } => {
+            let below = format!("group.{group}.model.{}", model(group));
+            let path = match error {
+                ParameterError::Unknown { name, .. }
+                | ParameterError::Type { name, .. }
+                | ParameterError::Range { name, .. } => format!("{below}.{name}"),
+                ParameterError::Together(_) => below,
+            };
+            Wrong::new(path, error.to_string(), "not possible together")
+        }
+        WorldError::Group { group, problem } => {
+            let place = if problem.contains("scanner") {
+                ".sensing"
+            } else if problem.starts_with("set `") || problem.contains("named set") {
+                ".select"
+            } else if problem.contains("column") {
+                ".start.state"
+            } else {
+                ""
+            };
+            Wrong::new(format!("group.{group}{place}"), problem.clone(), "not possible")
+        }
+        WorldError::Dimension { .. } => Wrong::new("space.dimensions", error.to_string(), "not for this model"),
+        WorldError::Model { .. } => Wrong::new("group", error.to_string(), ""),
+        WorldError::World(problem) => {
+            let place = if problem.contains("resources") { "food" } else if problem.contains("obstacle") { "obstacle" } else { "" };
+            Wrong::new(place, problem.clone(), "not possible")
+        }
+    }
+}
+
+fn space_of<R: Real, const D: usize>(written: &WrittenSpace) -> Result<Space<R, D>, Wrong> {
+    for (count, key) in [(written.edges.count(), "edges"), (written.size.as_ref().and_then(|s| s.count()), "size")] {
+        if let Some(count) = count
+            && count != D
+        {
+            let what = format!("`{key}` has {count} entries for {D} axes");
+            return Err(Wrong::new(format!("space.{key}"), what, format!("one for all, or {D}")));
+        }
+    }
+    let mut edges = [Edge::Open; D];
+    for (a, edge) in edges.iter_mut().enumerate() {
+        let size = || {
+            let size = written.size.as_ref().and_then(|size| size.of(a));
+            size.map(R::of).ok_or_else(|| Wrong::new("space", format!("axis {a} ends, so that it needs a size"), "`size` is missing"))
+        };
+        *edge = match written.edges.of(a) {
+            Some(Edges::Walls) => Edge::Walls(size()?),
+            Some(Edges::Periodic) => Edge::Periodic(size()?),
+            Some(Edges::Open) | None => Edge::Open,
+        };
+    }
+    Ok(Space { edges })
+}
+
+fn driver_of(driver: &Driver) -> plan::Driver {
+    match driver {
+        Driver::Synchronous(_) => plan::Driver::Synchronous,
+        Driver::Sequential(sequential) => plan::Driver::Sequential(match sequential.order {
+            Order::RoundRobin => plan::Order::RoundRobin,
+            Order::Random => plan::Order::Random,
+        }),
+        Driver::Asynchronous(clocks) => plan::Driver::Asynchronous {
+            tick: clocks.tick,
+            period: clocks.period,
+            phase: match clocks.phase {
+                Phase::Together => plan::Phase::Together,
+                Phase::Spread => plan::Phase::Spread,
+                Phase::Random => plan::Phase::Random,
+            },
+            clock: match clocks.clock {
+                Clock::Regular => plan::Clock::Regular { jitter: clocks.jitter },
+                Clock::Poisson => plan::Clock::Poisson,
+            },
+            delay: clocks.delay,
+        },
+    }
+}
+
+/// The plan of a scenario's world.
+///
+/// # Errors
+/// Everything that is wrong, by its path in the file.
+pub fn plan<R: Scalar, const D: usize>(
+    scenario: &Scenario,
+    seed: u64,
+    threads: usize,
+) -> Result<WorldPlan<R, D>, Vec<Wrong>>
+where
+    Models: Catalogue<R, D>,
+{
+    let mut wrongs = Vec::new();
+    let space = space_of::<R, D>(&scenario.space).map_err(|wrong| vec![wrong])?;
+    let mut obstacles = Vec::new();
+    for (k, obstacle) in scenario.obstacle.iter().enumerate() {
+        match obstacle.resolved() {
+            Ok(obstacle) => obstacles.push(obstacle),
+            Err(wrong) => wrongs.push(wrong.below(&format!("obstacle.{k}"))),
+        }
+    }
+    for (index, (name, scatter)) in scenario.scatter.0.iter().enumerate() {
+        match scatter.resolved(&space, seed, index as u64) {
+            Ok(balls) => obstacles.extend(balls),
+            Err(wrong) => wrongs.push(wrong.below(&format!("scatter.{name}"))),
+        }
+    }
+    let resources = match scenario.food.as_ref().map(|food| food.resolved(&space, seed)) {
+        Some(Err(wrong)) => {
+            wrongs.push(wrong.below("food"));
+            None
+        }
+        Some(Ok(resources)) => Some(resources),
+        None => None,
+    };
+    let mut groups = Vec::new();
+    let mut first = 0u32;
+    for (index, (name, group)) in scenario.group.0.iter().enumerate() {
+        let below = format!("group.{name}");
+        match group_of(name, group, scenario, &space, &obstacles, seed, index as u64, first) {
+            Ok(plan) => groups.push(plan),
+            Err(wrong) => wrongs.push(wrong.below(&below)),
+        }
+        first += group.count as u32;
+    }
+    if !wrongs.is_empty() {
+        return Err(wrongs);
+    }
+    Ok(WorldPlan {
+        space,
+        groups,
+        obstacles,
+        resources,
+        driver: driver_of(&scenario.time.driver),
+        index: IndexChoice::Automatic,
+        seed,
+        first_step: 0,
+        threads,
+    })
+}
+
+fn group_of<R: Scalar, const D: usize>(
+    name: &str,
+    group: &Group,
+    scenario: &Scenario,
+    space: &Space<R, D>,
+    obstacles: &[space::obstacles::Obstacle<R, D>],
+    seed: u64,
+    index: u64,
+    first: u32,
+) -> Result<GroupPlan<R, D>, Wrong>
+where
+    Models: Catalogue<R, D>,
+{
+    let id = group.model.id.as_str();
+    let mut values = group.model.values(group.count, seed, first);
+    if let Some(step) = scenario.time.step {
+        let known = group.model.descriptors().iter().any(|d| d.name == TIME_STEP);
+        if values.contains_key(TIME_STEP) {
+            let what = "the step is given here and as time.step";
+            return Err(Wrong::new(format!("model.{id}.{TIME_STEP}"), what, "leave one of them out"));
+        }
+        if known {
+            values.insert(TIME_STEP.to_owned(), step.into());
+        }
+    }
+    let prepared = match Models::prepare(id, &values, group.count) {
+        Some(Ok(prepared)) => prepared,
+        Some(Err(error)) => return Err(Wrong::new(format!("model.{id}"), error.to_string(), "not possible together")),
+        None => {
+            let works = swarm::models::find(id).map_or(&[][..], |entry| entry.dimensions);
+            let works: Vec<String> = works.iter().map(ToString::to_string).collect();
+            let what = format!("`{id}` works in {} dimensions, not in {D}", works.join(" or "));
+            return Err(Wrong::new("model", what, "needs another number of dimensions").help("change space.dimensions"));
+        }
+    };
+    let physics = group.physics.as_ref();
+    let radius = physics.and_then(|p| p.radius).map(R::of);
+    let body_radius = radius.unwrap_or(prepared.body_radius());
+    let around = Obstacles::new(obstacles.to_vec(), space.periods(), body_radius.most(R::TINY))
+        .map_err(|error| Wrong::new("", format!("obstacles: {error}"), ""))?;
+    let surroundings = super::start::Surroundings {
+        space,
+        obstacles: &around,
+        seed,
+        group: index,
+        first,
+        count: group.count,
+        body_radius,
+        initial_speed: prepared.initial_speed(),
+    };
+    let default = Start::default();
+    let start = group.start.as_ref().unwrap_or(&default).resolved(&surroundings).map_err(|wrong| wrong.below("start"))?;
+    let mut plan = GroupPlan::new(name, id, values, group.count, Placement::Given(start));
+    for (set, choice) in &group.select.0 {
+        let choice = choice
+            .resolved()
+            .map_err(|what| Wrong::new(format!("select.{set}"), what, "as many as the space has dimensions"))?;
+        plan.sets.push((set.clone(), choice));
+    }
+    if let Some(sensing) = &group.sensing {
+        plan.sensing = sensing.resolved();
+    }
+    if let Some(physics) = physics {
+        plan.mobility = physics.mobility.resolved();
+        plan.contact = physics.contact.map(Into::into);
+        plan.noise = physics.noise.resolved();
+        plan.radius = radius;
+    }
+    Ok(plan)
+}
+
+/// The precision as a word.
+pub fn precision(scenario: &Scenario) -> &'static str {
+    match scenario.precision {
+        Precision::Single => "f32",
+        Precision::Double => "f64",
+    }
+}

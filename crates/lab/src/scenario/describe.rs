@@ -1,0 +1,244 @@
+//! A scenario in the words of a methods section.
+
+use super::agents::{Given, default_in_files, unit_in_files};
+use super::build::Schedule;
+use super::sensing::{Detection, Occlusion};
+use super::start::{Heading, Place};
+use super::{Choice, Clock, Driver, Edges, Group, Order, Scenario, Sensing, Start, body::BodyMobility};
+use crate::file::Form;
+
+/// The paragraphs.
+pub fn methods(scenario: &Scenario, schedule: &Schedule, seed: u64) -> Vec<String> {
+    let mut paragraphs = vec![world(scenario, schedule)];
+    paragraphs.extend(scenario.group.0.iter().map(|(name, group)| of_group(name, group, scenario)));
+    paragraphs.push(kept(scenario, schedule, seed));
+    paragraphs
+}
+
+fn number(value: f64) -> String {
+    let text = format!("{value:.6}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+fn listed(parts: &[String]) -> String {
+    match parts {
+        [] => String::new(),
+        [one] => one.clone(),
+        [most @ .., last] => format!("{} and {last}", most.join(", ")),
+    }
+}
+
+fn world(scenario: &Scenario, schedule: &Schedule) -> String {
+    let (length, time) = (&scenario.units.length, &scenario.units.time);
+    let dimensions = scenario.space.dimensions;
+    let axes = ["x", "y", "z"];
+    let axis = |a: usize| {
+        let size = scenario.space.size.as_ref().and_then(|size| size.of(a)).map(|s| format!(" of {} {length}", number(s)));
+        let size = size.unwrap_or_default();
+        match scenario.space.edges.of(a) {
+            Some(Edges::Walls) => format!("an axis {}{size} between solid walls", axes[a]),
+            Some(Edges::Periodic) => format!("a periodic axis {}{size}", axes[a]),
+            Some(Edges::Open) | None => format!("an open axis {}", axes[a]),
+        }
+    };
+    let parts: Vec<String> = (0..dimensions).map(axis).collect();
+    let mut text = format!(
+        "The space had {dimensions} dimension{}: {}.",
+        if dimensions == 1 { "" } else { "s" },
+        listed(&parts)
+    );
+    if !scenario.obstacle.is_empty() {
+        let count = scenario.obstacle.len();
+        text += &format!(" It held {count} obstacle{}.", if count == 1 { "" } else { "s" });
+    }
+    for (name, scatter) in &scenario.scatter.0 {
+        let many = match (scatter.count, scatter.percent) {
+            (Some(count), _) => count.to_string(),
+            (None, percent) => format!("as many as fill {} % of it", number(percent.unwrap_or(0.0))),
+        };
+        text += &format!(
+            " Obstacles `{name}` were scattered at random: {many}, of radius {} {length}, none overlapping another.",
+            number(scatter.radius)
+        );
+    }
+    if let Some(food) = &scenario.food {
+        let count = food.count.or(food.places.as_ref().map(Vec::len)).unwrap_or(0);
+        text += &format!(" {count} items of food were there; the nearest living agent within {} {length} consumed one.", number(food.within));
+    }
+    let order = match &scenario.time.driver {
+        Driver::Synchronous(_) => "all agents read the state of one time and then moved together".to_owned(),
+        Driver::Sequential(s) => match s.order {
+            Order::Random => "agents moved one after the other, in a new random order every step".to_owned(),
+            Order::RoundRobin => "agents moved one after the other, by number".to_owned(),
+        },
+        Driver::Asynchronous(a) => format!(
+            "each agent decided on its own clock, every {} {time}{}; bodies moved in ticks beneath",
+            number(a.period),
+            match a.clock {
+                Clock::Regular if a.jitter > 0.0 => format!(" give or take {} %", number(100.0 * a.jitter)),
+                Clock::Regular => String::new(),
+                Clock::Poisson => " in the mean, at random".to_owned(),
+            }
+        ),
+    };
+    let duration = schedule.step * schedule.steps as f64;
+    text + &format!(
+        " {} {time} were simulated in {} steps of {} {time}; {order}.",
+        number(duration),
+        schedule.steps,
+        number(schedule.step)
+    )
+}
+
+fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
+    let length = &scenario.units.length;
+    let card = swarm::models::find(&group.model.id).map(|entry| entry.card);
+    let (title, about, reference) = card.map_or(("", "", ""), |card| (card.title, card.about, card.reference));
+    let mut text = format!(
+        "The group `{name}` had {} agents of the model `{}` ({title}): {about} Reference: {}.",
+        group.count,
+        group.model.id,
+        reference.trim_end_matches('.')
+    );
+    let descriptors = group.model.descriptors();
+    let mut changed = Vec::new();
+    for (parameter, given) in &group.model.parameters {
+        let Some(descriptor) = descriptors.iter().find(|d| d.name == parameter) else { continue };
+        let unit = unit_in_files(descriptor);
+        let unit = if unit == "1" || unit == "-" { String::new() } else { format!(" {}", in_units(&unit, scenario)) };
+        match given {
+            Given::Value(value) if *value == default_in_files(descriptor) => {}
+            Given::Value(value) => {
+                let text = value.to_string();
+                let text = if text.chars().count() > 60 { "given for each member".to_owned() } else { format!("{text}{unit}") };
+                changed.push(format!("{parameter} = {text}"));
+            }
+            Given::Drawn(distribution) => {
+                changed.push(format!("{parameter} drawn for each member from {}{unit}", distribution.write().json()));
+            }
+        }
+    }
+    text += &if changed.is_empty() {
+        " All parameters had their default values.".to_owned()
+    } else {
+        format!(" Parameters that differ from their defaults: {}.", changed.join("; "))
+    };
+    let default = Start::default();
+    let start = group.start.as_ref().unwrap_or(&default);
+    text += &match &start.place {
+        Place::Anywhere(_) => " They began anywhere in the space".to_owned(),
+        Place::Box(_) => " They began at random places in a box".to_owned(),
+        Place::Ball(ball) => format!(" They began at random places within {} {length} of a point", number(ball.radius)),
+        Place::Lattice(lattice) => format!(" They began on a square lattice {} {length} wide", number(lattice.spacing)),
+        Place::Points(_) => " They began at given points".to_owned(),
+    };
+    if start.spacing > 0.0 {
+        text += &format!(", at least {} {length} apart", number(start.spacing));
+    }
+    text += &match (&start.velocities, &start.heading) {
+        (Some(_), _) => ", with given velocities.".to_owned(),
+        (None, Heading::Random(_)) => ", each heading its own way.".to_owned(),
+        (None, Heading::Along(_)) => ", all heading the same, given way.".to_owned(),
+        (None, Heading::Common(common)) => {
+            format!(", heading one way drawn for all, give or take {} degrees.", number(common.spread))
+        }
+    };
+    text += &sensing(group, scenario);
+    for (set, choice) in &group.select.0 {
+        text += &format!(" The set `{set}` held those that `{}` selects.", selection(choice));
+    }
+    if let Some(physics) = &group.physics {
+        text += match &physics.mobility {
+            BodyMobility::Ideal(_) => "",
+            BodyMobility::ConstantSpeed(_) => " Bodies moved at a constant speed.",
+            BodyMobility::TurnLimited(_) => " Bodies turned at a limited rate.",
+            BodyMobility::DifferentialDrive(_) => " Bodies were robots that drive on two wheels.",
+        };
+        if let Some(radius) = physics.radius {
+            text += &format!(" Bodies had a radius of {} {length}.", number(radius));
+        }
+        if let Some(contact) = physics.contact {
+            text += &format!(" Where the way was not free, bodies obeyed the policy `{}`.", contact.word());
+        }
+        let noise = &physics.noise;
+        if noise.computation > 0.0 || noise.execution_direction > 0.0 || noise.execution_speed > 0.0 {
+            text += &format!(
+                " Errors (standard deviations): of the wanted direction {} degrees, of the direction taken {} degrees, of the speed {} %.",
+                number(noise.computation),
+                number(noise.execution_direction),
+                number(100.0 * noise.execution_speed)
+            );
+        }
+    }
+    text
+}
+
+fn in_units(unit: &str, scenario: &Scenario) -> String {
+    unit.replace("length", &scenario.units.length).replace("time", &scenario.units.time)
+}
+
+fn selection(choice: &Choice) -> String {
+    choice.write().json().to_string()
+}
+
+fn sensing(group: &Group, scenario: &Scenario) -> String {
+    match &group.sensing {
+        None => " They sensed the others exactly.".to_owned(),
+        Some(Sensing::Ideal(ideal)) => {
+            let mut limits = Vec::new();
+            if let Some(range) = ideal.range {
+                limits.push(format!("within {} {}", number(range), scenario.units.length));
+            }
+            if let Some(opening) = ideal.field_of_view {
+                limits.push(format!("in a cone of {} degrees about the heading", number(opening)));
+            }
+            match ideal.occlusion {
+                Occlusion::None => {}
+                Occlusion::Obstacles => limits.push("not behind obstacles".to_owned()),
+                Occlusion::All => limits.push("not behind obstacles or bodies".to_owned()),
+            }
+            let noise = &ideal.noise;
+            if noise.distance > 0.0 || noise.direction > 0.0 || noise.heading > 0.0 || noise.miss > 0.0 {
+                limits.push(format!(
+                    "with errors (distance {} %, direction {} degrees, heading {} degrees, {} % missed)",
+                    number(100.0 * noise.distance),
+                    number(noise.direction),
+                    number(noise.heading),
+                    number(100.0 * noise.miss)
+                ));
+            }
+            if limits.is_empty() { " They sensed the others exactly.".to_owned() } else { format!(" They sensed others {}.", listed(&limits)) }
+        }
+        Some(Sensing::Laser(laser)) => {
+            let detection = match laser.detection {
+                Detection::SensorBased(_) => "every bright reading was an input",
+                Detection::MemberBased(_) => "one input for each segment with the profile of a body",
+                Detection::MemberExtrapolated(_) => "every reading of a segment with the profile of a body was an input",
+                Detection::Clustered(_) => "one input for each bright cluster about as wide as a body",
+            };
+            format!(
+                " They sensed by a laser of {} rays and {} m range{}; {detection}{}.",
+                laser.last_step - laser.first_step + 1,
+                number(laser.longest_range),
+                if laser.noise.is_some() { " with noisy readings" } else { "" },
+                if laser.association.is_some() { ", associated over time" } else { "" }
+            )
+        }
+    }
+}
+
+fn kept(scenario: &Scenario, schedule: &Schedule, seed: u64) -> String {
+    let time = &scenario.units.time;
+    let of_steps = |steps: u64| number(steps as f64 * schedule.step);
+    let mut text = format!("Metrics were computed every {} {time}", of_steps(schedule.measure));
+    if scenario.record.trajectory {
+        text += &format!(", and positions and velocities kept every {} {time}", of_steps(schedule.record));
+    }
+    text + &format!(
+        ". Random draws were counter-based (Philox4x32-10) with the seed {seed}; numbers had {} bits. The same file and seed give the same results to the last bit, on any number of threads.",
+        match super::build::precision(scenario) {
+            "f32" => 32,
+            _ => 64,
+        }
+    )
+}

@@ -1,0 +1,395 @@
+//! How a group begins.
+//!
+//! Every draw depends on the seed, on what it is for, and on an attempt number that never resets between bodies, so
+//! that a start is the same on any machine: place by U(seed, init, attempt + 2^36 group, axis), heading by
+//! U(seed, init, id, 4 and 5), the common heading of a group by U(seed, init, 2^40, 8 group and 8 group + 1), and the
+//! offsets from it by U(seed, init, 2^40 + 1 + id, 0 and 1).
+
+use super::agents::PerMember;
+use super::build::{Wrong, vector};
+use crate::file::{Named, Nothing};
+use crate::{form, tagged};
+use space::obstacles::Obstacles;
+use space::random::{Purpose, uniform, unit_vector};
+use space::{Real, Space, Vector};
+use std::collections::BTreeMap;
+use swarm::engine as plan;
+
+form! {
+    /// How a group begins.
+    pub struct Start {
+        /// Where.
+        place: Place = [Place::Anywhere(Nothing)], "", Any;
+        /// Least distance between the centres of two members.
+        spacing: f64 = [0.0], "length", NonNegative;
+        /// Which way they head.
+        heading: Heading = [Heading::Random(Nothing)], "", Any;
+        /// How fast they move; left out, as the model begins.
+        speed: Option<PerMember> = none, "length/time", NonNegative;
+        /// Velocities, one for each member, in place of heading and speed.
+        velocities: Option<Vec<Vec<f64>>> = none, "length/time", Any;
+        /// What the model remembers of each member, by column, as `flockworks models ID` lists them.
+        state: Named<PerMember> = [Named::default()], "", Any;
+    }
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self {
+            place: Place::Anywhere(Nothing),
+            spacing: 0.0,
+            heading: Heading::Random(Nothing),
+            speed: None,
+            velocities: None,
+            state: Named::default(),
+        }
+    }
+}
+
+tagged! {
+    /// Where a group begins.
+    pub enum Place {
+        /// Anywhere in the space.
+        anywhere => Anywhere(Nothing);
+        /// In a box.
+        box => Box(Region);
+        /// In a disc or sphere.
+        ball => Ball(BallRegion);
+        /// On a square lattice about a point.
+        lattice => Lattice(Lattice);
+        /// At these points, one for each member.
+        points in "length", swarm::parameters::Range::Any => Points(Vec<Vec<f64>>);
+    }
+}
+
+form! {
+    /// A box along the axes.
+    pub struct Region {
+        /// Lower corner.
+        low: Vec<f64> = need, "length", Any;
+        /// Upper corner.
+        high: Vec<f64> = need, "length", Any;
+    }
+}
+
+form! {
+    /// A disc or sphere.
+    pub struct BallRegion {
+        /// Its middle.
+        centre: Vec<f64> = need, "length", Any;
+        /// Its radius.
+        radius: f64 = need, "length", Positive;
+    }
+}
+
+form! {
+    /// A square lattice.
+    pub struct Lattice {
+        /// Its middle.
+        centre: Vec<f64> = need, "length", Any;
+        /// Distance between neighbours.
+        spacing: f64 = need, "length", Positive;
+    }
+}
+
+tagged! {
+    /// Which way a group heads at the start.
+    pub enum Heading {
+        /// Each its own way.
+        random => Random(Nothing);
+        /// All the same, given way.
+        along in "1", swarm::parameters::Range::Any => Along(Vec<f64>);
+        /// One way drawn for all; in 3-D azimuth and elevation are uniform.
+        common => Common(Common);
+    }
+}
+
+form! {
+    /// One heading for all, with deviations.
+    pub struct Common {
+        /// Largest deviation, of azimuth and elevation each.
+        spread: f64 = [0.0], "deg", NonNegative;
+    }
+}
+
+/// What a start needs to know of the group and its surroundings.
+pub(super) struct Surroundings<'a, R, const D: usize> {
+    pub(super) space: &'a Space<R, D>,
+    pub(super) obstacles: &'a Obstacles<R, D>,
+    pub(super) seed: u64,
+    /// Index of the group.
+    pub(super) group: u64,
+    /// Id of its first member.
+    pub(super) first: u32,
+    pub(super) count: usize,
+    pub(super) body_radius: R,
+    /// Speed at which the model begins.
+    pub(super) initial_speed: R,
+}
+
+impl Start {
+    /// The start, agent by agent. Wrongs carry paths below the start.
+    pub(super) fn resolved<R: Real, const D: usize>(
+        &self,
+        around: &Surroundings<'_, R, D>,
+    ) -> Result<plan::Start<R, D>, Wrong> {
+        let position = self.positions(around)?;
+        let velocity = self.velocities(around)?;
+        let mut columns = BTreeMap::new();
+        for (name, values) in &self.state.0 {
+            let values = values.values(around.count, around.seed, name, around.first).map_err(|found| {
+                let what = format!("{found} values of `{name}` for {} members", around.count);
+                Wrong::new(format!("state.{name}"), what, format!("expected {}", around.count))
+            })?;
+            columns.insert(name.clone(), values);
+        }
+        Ok(plan::Start { position, velocity, columns })
+    }
+
+    fn positions<R: Real, const D: usize>(
+        &self,
+        around: &Surroundings<'_, R, D>,
+    ) -> Result<Vec<Vector<R, D>>, Wrong> {
+        let bounds = |low: Vector<R, D>, high: Vector<R, D>| (low, high);
+        match &self.place {
+            Place::Points(points) => {
+                if points.len() != around.count {
+                    let what = format!("{} points for {} members", points.len(), around.count);
+                    return Err(Wrong::new("place.points", what, format!("expected {} points", around.count)));
+                }
+                let at = |(k, point): (usize, &Vec<f64>)| {
+                    vector(point).map_err(|what| Wrong::new(format!("place.points.{k}"), what, "a point of the space"))
+                };
+                points.iter().enumerate().map(at).collect()
+            }
+            Place::Lattice(lattice) => {
+                let centre: Vector<R, D> = at_path(&lattice.centre, "place.lattice.centre")?;
+                let mut side = 1usize;
+                while side.pow(D as u32) < around.count {
+                    side += 1;
+                }
+                let middle = (side as f64 - 1.0) / 2.0;
+                let place = |k: usize| {
+                    let along = |a: usize| (k / side.pow(a as u32) % side) as f64 - middle;
+                    centre + Vector(core::array::from_fn(|a| R::of(along(a) * lattice.spacing)))
+                };
+                Ok((0..around.count).map(place).collect())
+            }
+            Place::Anywhere(_) => {
+                let mut high = Vector::ZERO;
+                for a in 0..D {
+                    high.0[a] = around.space.side(a).ok_or_else(|| {
+                        let what = format!("\"anywhere\" has no meaning on axis {a}, which is open");
+                        Wrong::new("place", what, "a place in open space").help("use place.box, place.ball or place.lattice")
+                    })?;
+                }
+                let (low, high) = bounds(Vector::ZERO, high);
+                self.scattered(around, low, high, |_| true, "place")
+            }
+            Place::Box(region) => {
+                let low: Vector<R, D> = at_path(&region.low, "place.box.low")?;
+                let high: Vector<R, D> = at_path(&region.high, "place.box.high")?;
+                if (0..D).any(|a| low[a] > high[a]) {
+                    let what = "the lower corner lies above the upper one";
+                    return Err(Wrong::new("place.box.low", what, "low must not exceed high on any axis"));
+                }
+                self.scattered(around, low, high, |_| true, "place.box")
+            }
+            Place::Ball(ball) => {
+                let centre: Vector<R, D> = at_path(&ball.centre, "place.ball.centre")?;
+                let radius = R::of(ball.radius);
+                let reach = Vector([radius; D]);
+                let inside = |p: Vector<R, D>| (p - centre).length_squared() <= radius * radius;
+                self.scattered(around, centre - reach, centre + reach, inside, "place.ball")
+            }
+        }
+    }
+
+    /// Places drawn in a box until all keep their distance, are inside, and touch neither wall nor obstacle.
+    fn scattered<R: Real, const D: usize>(
+        &self,
+        around: &Surroundings<'_, R, D>,
+        low: Vector<R, D>,
+        high: Vector<R, D>,
+        inside: impl Fn(Vector<R, D>) -> bool,
+        path: &str,
+    ) -> Result<Vec<Vector<R, D>>, Wrong> {
+        let mut apart = Apart::new(around.space, R::of(self.spacing));
+        let mut places = Vec::with_capacity(around.count);
+        let most = 2000 * around.count as u64 + 10_000;
+        let radius = around.body_radius;
+        let mut attempt = 0;
+        while places.len() < around.count {
+            if attempt == most {
+                let what = format!("only {} of {} members found a place in {most} attempts", places.len(), around.count);
+                return Err(Wrong::new(path, what, "too little room").help(
+                    "a larger place, a smaller spacing or fewer members leave room; bodies keep clear of walls and obstacles",
+                ));
+            }
+            let a = attempt + (around.group << 36);
+            attempt += 1;
+            let draw = |axis: usize| R::of(uniform(around.seed, Purpose::Init, a, axis as u32));
+            let place = Vector(core::array::from_fn(|axis| low[axis] + (high[axis] - low[axis]) * draw(axis)));
+            if !inside(place) || !around.clear(place, radius) || !apart.admits(place) {
+                continue;
+            }
+            apart.add(place);
+            places.push(place);
+        }
+        Ok(places)
+    }
+
+    fn velocities<R: Real, const D: usize>(
+        &self,
+        around: &Surroundings<'_, R, D>,
+    ) -> Result<Option<Vec<Vector<R, D>>>, Wrong> {
+        if let Some(velocities) = &self.velocities {
+            if velocities.len() != around.count {
+                let what = format!("{} velocities for {} members", velocities.len(), around.count);
+                return Err(Wrong::new("velocities", what, format!("expected {}", around.count)));
+            }
+            if self.speed.is_some() || self.heading != Heading::Random(Nothing) {
+                let what = "velocities say it all; speed and heading beside them contradict";
+                return Err(Wrong::new("velocities", what, "leave out either"));
+            }
+            let at = |(k, v): (usize, &Vec<f64>)| {
+                vector(v).map_err(|what| Wrong::new(format!("velocities.{k}"), what, "a velocity"))
+            };
+            return velocities.iter().enumerate().map(at).collect::<Result<_, _>>().map(Some);
+        }
+        if self.speed.is_none() && self.heading == Heading::Random(Nothing) && around.initial_speed == R::ZERO {
+            // the model begins as it will: at rest, or with velocities of its own
+            return Ok(None);
+        }
+        let speeds = match &self.speed {
+            None => vec![around.initial_speed; around.count],
+            Some(speed) => {
+                let speeds = speed.values(around.count, around.seed, "speed", around.first).map_err(|found| {
+                    Wrong::new("speed", format!("{found} speeds for {} members", around.count), "one for each member")
+                })?;
+                speeds.into_iter().map(|v| R::of(v.max(0.0))).collect()
+            }
+        };
+        let headings = self.headings(around)?;
+        Ok(Some(headings.into_iter().zip(speeds).map(|(heading, speed)| heading * speed).collect()))
+    }
+
+    fn headings<R: Real, const D: usize>(&self, around: &Surroundings<'_, R, D>) -> Result<Vec<Vector<R, D>>, Wrong> {
+        let ids = around.first..around.first + around.count as u32;
+        let seed = around.seed;
+        Ok(match &self.heading {
+            Heading::Random(_) => ids
+                .map(|id| {
+                    let draw = |slot| uniform(seed, Purpose::Init, u64::from(id), slot);
+                    unit_vector(draw(4), draw(5))
+                })
+                .collect(),
+            Heading::Along(way) => {
+                let way: Vector<R, D> = at_path(way, "heading.along")?;
+                if way.is_tiny() {
+                    return Err(Wrong::new("heading.along", "the zero vector shows no way", "a vector with a length"));
+                }
+                vec![way.unit(); around.count]
+            }
+            Heading::Common(common) => {
+                let base = |slot: u32| uniform(seed, Purpose::Init, 1 << 40, 8 * around.group as u32 + slot);
+                let (azimuth, elevation) = (-180.0 + 360.0 * base(0), -90.0 + 180.0 * base(1));
+                ids.map(|id| {
+                    let own = |slot| uniform(seed, Purpose::Init, (1 << 40) + 1 + u64::from(id), slot);
+                    let off = |slot| common.spread * (2.0 * own(slot) - 1.0);
+                    towards(azimuth + off(0), (elevation + off(1)).clamp(-90.0, 90.0))
+                })
+                .collect()
+            }
+        })
+    }
+}
+
+/// The unit vector of an azimuth and an elevation, in degrees; in one dimension its sign.
+fn towards<R: Real, const D: usize>(azimuth: f64, elevation: f64) -> Vector<R, D> {
+    let (sin, cos) = Real::sin_cos(azimuth.to_radians());
+    let (up, along) = Real::sin_cos(elevation.to_radians());
+    Vector(core::array::from_fn(|a| {
+        R::of(match (D, a) {
+            (1, _) => if cos < 0.0 { -1.0 } else { 1.0 },
+            (2, 0) => cos,
+            (2, _) => sin,
+            (_, 0) => along * cos,
+            (_, 1) => along * sin,
+            _ => up,
+        })
+    }))
+}
+
+fn at_path<R: Real, const D: usize>(numbers: &[f64], path: &str) -> Result<Vector<R, D>, Wrong> {
+    vector(numbers).map_err(|what| Wrong::new(path, what, format!("{D} numbers")))
+}
+
+impl<R: Real, const D: usize> Surroundings<'_, R, D> {
+    /// Whether a body here touches neither wall nor obstacle.
+    fn clear(&self, place: Vector<R, D>, radius: R) -> bool {
+        for a in 0..D {
+            if let space::Edge::Walls(length) = self.space.edges[a]
+                && (place[a] < radius || place[a] > length - radius)
+            {
+                return false;
+            }
+        }
+        let mut free = true;
+        self.obstacles.near(place, radius.most(R::TINY), |_, _, _| free = false);
+        free
+    }
+}
+
+/// Places that keep a distance from each other, found again by cells of that size.
+pub(super) struct Apart<'a, R, const D: usize> {
+    space: &'a Space<R, D>,
+    distance: R,
+    cells: std::collections::HashMap<[i64; D], Vec<Vector<R, D>>>,
+}
+
+impl<'a, R: Real, const D: usize> Apart<'a, R, D> {
+    pub(super) fn new(space: &'a Space<R, D>, distance: R) -> Self {
+        Self { space, distance, cells: std::collections::HashMap::new() }
+    }
+    /// How many cells a periodic axis has, and how wide they are on any axis.
+    fn axis(&self, a: usize) -> (Option<i64>, f64) {
+        let wanted = self.distance.to_f64().max(1e-9);
+        match self.space.periods()[a] {
+            Some(length) => {
+                let cells = (length.to_f64() / wanted).floor().clamp(1.0, 1e6);
+                (Some(cells as i64), length.to_f64() / cells)
+            }
+            None => (None, wanted),
+        }
+    }
+    fn cell(&self, place: Vector<R, D>) -> [i64; D] {
+        core::array::from_fn(|a| {
+            let (cells, width) = self.axis(a);
+            let cell = (place[a].to_f64() / width).floor() as i64;
+            cells.map_or(cell, |cells| cell.rem_euclid(cells))
+        })
+    }
+    pub(super) fn admits(&self, place: Vector<R, D>) -> bool {
+        if self.distance <= R::ZERO {
+            return true;
+        }
+        let here = self.cell(place);
+        let near = 3usize.pow(D as u32);
+        !(0..near).any(|k| {
+            let there = core::array::from_fn(|a| {
+                let cell = here[a] + (k / 3usize.pow(a as u32) % 3) as i64 - 1;
+                self.axis(a).0.map_or(cell, |cells| cell.rem_euclid(cells))
+            });
+            let limit = self.distance * self.distance;
+            self.cells
+                .get(&there)
+                .is_some_and(|cell| cell.iter().any(|&other| self.space.offset(place, other).length_squared() < limit))
+        })
+    }
+    pub(super) fn add(&mut self, place: Vector<R, D>) {
+        if self.distance > R::ZERO {
+            self.cells.entry(self.cell(place)).or_default().push(place);
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! An append-only file of records, each with its length and checksum. Whatever stops the writer, the records before the
+//! one in work can be read; a torn tail is cut off when the log is opened again.
+
+use super::StoreError;
+use std::fs::{File, OpenOptions};
+use std::io::{BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use twox_hash::XxHash64;
+
+/// First bytes of a log; the last one counts the changes of its layout.
+const MARK: [u8; 8] = *b"flklog\0\x01";
+/// Kind, length, checksum.
+const HEAD: usize = 4 + 8 + 8;
+
+/// A record's place in a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Record {
+    /// What it holds; the meaning is the writer's.
+    pub kind: u32,
+    /// Where its bytes begin.
+    pub from: u64,
+    /// How many there are.
+    pub length: u64,
+}
+
+/// An open log.
+#[derive(Debug)]
+pub struct Log {
+    path: PathBuf,
+    file: File,
+    end: u64,
+}
+
+impl Log {
+    /// A new log with no records, in place of what was there.
+    ///
+    /// # Errors
+    /// Where the system refuses.
+    pub fn create(path: &Path) -> Result<Self, StoreError> {
+        let open = OpenOptions::new().read(true).write(true).create(true).truncate(true).open(path);
+        let mut file = open.map_err(|error| StoreError::io("create", path, error))?;
+        file.write_all(&MARK).map_err(|error| StoreError::io("write", path, error))?;
+        Ok(Self { path: path.to_owned(), file, end: MARK.len() as u64 })
+    }
+    /// Opens a log and lists its whole records; what follows them is a torn tail.
+    ///
+    /// # Errors
+    /// Where the system refuses, or the file is no log.
+    pub fn open(path: &Path) -> Result<(Self, Vec<Record>), StoreError> {
+        let open = OpenOptions::new().read(true).write(true).open(path);
+        let file = open.map_err(|error| StoreError::io("open", path, error))?;
+        let mut reader = BufReader::with_capacity(1 << 16, &file);
+        let mut mark = [0; MARK.len()];
+        if reader.read_exact(&mut mark).is_err() || mark != MARK {
+            return Err(StoreError::Damaged(format!("`{}` is no log of this program", path.display())));
+        }
+        let size = file.metadata().map_err(|error| StoreError::io("read", path, error))?.len();
+        let (mut records, mut end) = (Vec::new(), MARK.len() as u64);
+        let mut payload = Vec::new();
+        let mut head = [0; HEAD];
+        while reader.read_exact(&mut head).is_ok() {
+            let (kind, length, sum) = split(&head);
+            if length > size.saturating_sub(end + HEAD as u64) {
+                break;
+            }
+            payload.resize(length as usize, 0);
+            if reader.read_exact(&mut payload).is_err() || checksum(kind, &payload) != sum {
+                break;
+            }
+            records.push(Record { kind, from: end + HEAD as u64, length });
+            end += HEAD as u64 + length;
+        }
+        Ok((Self { path: path.to_owned(), file, end }, records))
+    }
+    /// Cuts off everything after a record (everything, for none).
+    ///
+    /// # Errors
+    /// Where the system refuses.
+    pub fn keep_until(&mut self, record: Option<&Record>) -> Result<(), StoreError> {
+        self.end = record.map_or(MARK.len() as u64, |record| record.from + record.length);
+        self.file.set_len(self.end).map_err(|error| StoreError::io("shorten", &self.path, error))
+    }
+    /// Appends a record.
+    ///
+    /// # Errors
+    /// Where the system refuses: a full disk, for one. The log then ends before the record.
+    pub fn append(&mut self, kind: u32, payload: &[u8]) -> Result<Record, StoreError> {
+        let mut head = [0; HEAD];
+        head[..4].copy_from_slice(&kind.to_le_bytes());
+        head[4..12].copy_from_slice(&(payload.len() as u64).to_le_bytes());
+        head[12..].copy_from_slice(&checksum(kind, payload).to_le_bytes());
+        let write = |file: &mut File| {
+            file.seek(SeekFrom::Start(self.end))?;
+            file.write_all(&head)?;
+            file.write_all(payload)
+        };
+        write(&mut self.file).map_err(|error| StoreError::io("write", &self.path, error))?;
+        let record = Record { kind, from: self.end + HEAD as u64, length: payload.len() as u64 };
+        self.end = record.from + record.length;
+        Ok(record)
+    }
+    /// The bytes of a record.
+    ///
+    /// # Errors
+    /// Where the system refuses, or the record has changed.
+    pub fn read(&mut self, record: &Record) -> Result<Vec<u8>, StoreError> {
+        let mut bytes = vec![0; HEAD + record.length as usize];
+        let read = |file: &mut File, bytes: &mut [u8]| {
+            file.seek(SeekFrom::Start(record.from - HEAD as u64))?;
+            file.read_exact(bytes)
+        };
+        read(&mut self.file, &mut bytes).map_err(|error| StoreError::io("read", &self.path, error))?;
+        let payload = bytes.split_off(HEAD);
+        let mut head = [0; HEAD];
+        head.copy_from_slice(&bytes);
+        if split(&head) != (record.kind, record.length, checksum(record.kind, &payload)) {
+            return Err(StoreError::Damaged(format!("`{}` has changed while it was read", self.path.display())));
+        }
+        Ok(payload)
+    }
+}
+
+fn split(head: &[u8; HEAD]) -> (u32, u64, u64) {
+    let word = |from: usize| u64::from_le_bytes(core::array::from_fn(|k| head[from + k]));
+    (u32::from_le_bytes(core::array::from_fn(|k| head[k])), word(4), word(12))
+}
+
+fn checksum(kind: u32, payload: &[u8]) -> u64 {
+    XxHash64::oneshot(u64::from(kind), payload)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use super::*;
+
+    fn place(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("flockworks-log-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        folder.join(name)
+    }
+
+    #[test]
+    fn a_log_cut_at_any_byte_gives_back_its_whole_records() {
+        let path = place("cut");
+        let mut log = Log::create(&path).unwrap();
+        let mut ends = vec![MARK.len() as u64];
+        for k in 0..4u32 {
+            let record = log.append(k, &vec![k as u8; 10 * k as usize]).unwrap();
+            ends.push(record.from + record.length);
+        }
+        let whole = std::fs::read(&path).unwrap();
+        for cut in MARK.len()..=whole.len() {
+            std::fs::write(&path, &whole[..cut]).unwrap();
+            let (mut log, records) = Log::open(&path).unwrap();
+            let expected = ends.iter().filter(|&&end| end <= cut as u64).count() - 1;
+            assert_eq!(records.len(), expected, "cut at {cut}");
+            for (k, record) in records.iter().enumerate() {
+                assert_eq!(log.read(record).unwrap(), vec![k as u8; 10 * k]);
+            }
+            // what is appended after a torn tail can be read
+            log.keep_until(records.last()).unwrap();
+            log.append(9, b"new").unwrap();
+            let (mut log, records) = Log::open(&path).unwrap();
+            assert_eq!(log.read(&records[expected]).unwrap(), b"new");
+        }
+    }
+
+    #[test]
+    fn a_flipped_bit_is_noticed() {
+        let path = place("bit");
+        let mut log = Log::create(&path).unwrap();
+        log.append(1, b"first").unwrap();
+        log.append(2, b"second").unwrap();
+        let whole = std::fs::read(&path).unwrap();
+        for byte in 0..whole.len() {
+            let mut damaged = whole.clone();
+            damaged[byte] ^= 4;
+            std::fs::write(&path, damaged).unwrap();
+            if let Ok((_, records)) = Log::open(&path) {
+                assert!(records.len() < 2, "byte {byte}");
+            }
+        }
+    }
+}
