@@ -276,12 +276,17 @@
     const agents = group.length, axes = replay.bounds.length;
     const perFrame = agents * (2 * axes + (axes === 3 ? 2 : 1));
     const ABSENT = 65535, MOST = 65534;
-    const position = (frame, agent, axis) => {
-      const at = frame * perFrame + 2 * (axis * agents + agent);
-      const word = bytes[at] | bytes[at + 1] << 8;
-      const [low, high] = replay.bounds[axis];
-      return word === ABSENT ? NaN : low + word / MOST * (high - low);
-    };
+    const position = new Float32Array(replay.times.length * agents * 3);
+    for (let frame = 0; frame < replay.times.length; frame += 1) {
+      for (let axis = 0; axis < axes; axis += 1) {
+        const [low, high] = replay.bounds[axis];
+        for (let agent = 0; agent < agents; agent += 1) {
+          const at = frame * perFrame + 2 * (axis * agents + agent);
+          const word = bytes[at] | bytes[at + 1] << 8;
+          position[3 * (frame * agents + agent) + axis] = word === ABSENT ? NaN : low + word / MOST * (high - low);
+        }
+      }
+    }
     const heading = (frame, agent) => {
       const at = frame * perFrame + 2 * axes * agents + agent;
       if (bytes[at] === 255) return null;
@@ -290,7 +295,10 @@
       const polar = bytes[at + agents] / 254 * Math.PI;
       return [Math.sin(polar) * Math.cos(azimuth), Math.sin(polar) * Math.sin(azimuth), Math.cos(polar)];
     };
-    const place = (frame, agent) => [0, 1, 2].map((axis) => (axis < axes ? position(frame, agent, axis) : 0));
+    const place = (frame, agent) => {
+      const at = 3 * (frame * agents + agent);
+      return [position[at], position[at + 1], position[at + 2]];
+    };
     return { group, agents, axes, place, heading };
   };
 
@@ -300,7 +308,9 @@
     return [5, 2, 1].map((digit) => digit * power).find((length) => length <= most * (1 + 1e-9)) ?? power;
   };
 
-  const TRAIL = 24, FADES = 5, ROOM = 12, FOOT = 30, DRAWER = 3;
+  // a trail is so many frames long, and shorter where there are so many agents that drawing would falter
+  const TRAIL = 24, TRAIL_STEPS = 30000, MANY = 800;
+  const FADES = 5, ROOM = 12, FOOT = 30, DRAWER = 3;
   const ARROW = [[1, 0], [-0.8, 0.68], [-0.4, 0], [-0.8, -0.68]];
   const FIRST_VIEW = { turn: -0.62, tilt: 0.5, zoom: 1 };
 
@@ -339,7 +349,7 @@
       const far = 3.4 * radius;
       const [cosTurn, sinTurn, cosTilt, sinTilt] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
       return (place) => {
-        const [x, y, z] = [0, 1, 2].map((axis) => place[axis] - centre[axis]);
+        const x = place[0] - centre[0], y = place[1] - centre[1], z = place[2] - centre[2];
         const across = x * cosTurn - y * sinTurn, away = x * sinTurn + y * cosTurn;
         const up = z * cosTilt + away * sinTilt, depth = away * cosTilt - z * sinTilt;
         const here = scale * far / Math.max(far + depth, 0.05 * far);
@@ -424,8 +434,9 @@
           let fill = colours.obstacle;
           if (space) {
             fill = pen.createRadialGradient(x - radius * 0.35, y - radius * 0.4, radius * 0.1, x, y, radius * 1.25);
-            fill.addColorStop(0, colours.obstacle);
-            fill.addColorStop(1, colours.faint);
+            const [lit, rim] = isDark() ? [colours.faint, colours.obstacle] : [colours.obstacle, colours.faint];
+            fill.addColorStop(0, lit);
+            fill.addColorStop(1, rim);
           }
           pen.beginPath();
           pen.arc(x, y, radius, 0, 2 * Math.PI);
@@ -487,17 +498,19 @@
         if (arrow) path(arrow, true); else { pen.beginPath(); pen.arc(x, y, half * 0.6, 0, 2 * Math.PI); }
         pen.fillStyle = series(group);
         pen.fill();
-        pen.strokeStyle = colours.stage;
-        pen.lineWidth = 0.7;
-        pen.stroke();
+        if (data.agents <= MANY) {
+          pen.strokeStyle = colours.stage;
+          pen.lineWidth = 0.7;
+          pen.stroke();
+        }
         pen.globalAlpha = 1;
       }];
     };
 
-    const crossesSeam = (from, to) => [0, 1, 2].some((axis) =>
-      axis < stage.axes && stage.edges[axis] === "seam" && Math.abs(to[axis] - from[axis]) > size[axis] / 2);
+    const seams = [0, 1, 2].filter((axis) => axis < stage.axes && stage.edges[axis] === "seam");
+    const crossesSeam = (from, to) => seams.some((axis) => Math.abs(to[axis] - from[axis]) > size[axis] / 2);
     const drawTrails = () => {
-      const first = Math.max(0, frame - TRAIL), steps = frame - first;
+      const first = Math.max(0, frame - clamp(Math.round(TRAIL_STEPS / data.agents), 4, TRAIL)), steps = frame - first;
       if (steps === 0) return;
       const paths = new Map();
       for (let index = 0; index < data.agents; index += 1) {
@@ -555,7 +568,7 @@
       const behind = edges();
       if (!space) things.splice(0).forEach(([, act]) => act());
       if (frames > 0 && trails.checked) drawTrails();
-      const smallest = (data.agents > 800 ? 3 : 5) * (space ? 1.2 : 1) * (wide < 500 ? 0.8 : 1);
+      const smallest = (data.agents > MANY ? 3 : 5) * (space ? 1.2 : 1) * (wide < 500 ? 0.8 : 1);
       for (let index = 0; frames > 0 && index < data.agents; index += 1) {
         const thing = agent(index, smallest);
         if (thing) things.push(thing);
