@@ -1,7 +1,8 @@
 //! Writes a sample page: `cargo run -p lab --example sample_page -- OUT.html`.
 //!
 //! Three groups circle in space among obstacles; one flock moves in a periodic plane. Nothing is simulated: the paths are
-//! closed forms, so that the tests of the page know what it must show.
+//! closed forms, so that the tests of the page know what it must show. With `strange` as the second argument: a page of
+//! everything that can be wrong with what is to be shown.
 
 use lab::report::{
     Axis, Border, Fact, Figure, Line, Lines, Moment, Outline, Page, Replay, Scenes, Seen, Stage, Table, html,
@@ -20,7 +21,12 @@ const TIME_STEP: f64 = 0.25;
 
 fn main() -> ExitCode {
     let Some(file) = std::env::args().nth(1) else { return ExitCode::from(2) };
-    match std::fs::write(file, html(&page())) {
+    let page = match std::env::args().nth(2).as_deref() {
+        None | Some("sample") => page(),
+        Some("strange") => strange(),
+        Some(_) => return ExitCode::from(2),
+    };
+    match std::fs::write(file, html(&page)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(_) => ExitCode::from(70),
     }
@@ -53,12 +59,13 @@ fn swimmer(index: usize, time: f64) -> (usize, [f64; 3], [f64; 3]) {
 
 /// Where a bird is in the periodic plane, and its heading.
 fn bird(index: usize, time: f64) -> ([f64; 3], [f64; 3]) {
-    let order = 1.0 - (-time / 12.0).exp();
-    let angle = (1.0 - order) * (share(index, 6) - 0.5) * TAU + 0.5 + 0.25 * (time / 9.0).sin();
-    let start = [share(index, 4) * 25.0, share(index, 5) * 25.0];
-    let travelled = [1.1 * time, 0.6 * time + 2.0 * (time / 9.0 + share(index, 6)).sin()];
-    let wrapped = |axis: usize| (start[axis] + travelled[axis]).rem_euclid(25.0);
-    ([wrapped(0), wrapped(1), 0.0], [angle.cos(), angle.sin(), 0.0])
+    // every bird begins with a heading of its own and takes on the common one
+    let own = share(index, 6) * TAU;
+    let (left, spent) = ((-time / 8.0).exp(), 8.0 * (1.0 - (-time / 8.0).exp()));
+    let velocity = [1.1 + 2.0 * own.cos() * left, 0.5 * (time / 9.0).cos() + 2.0 * own.sin() * left, 0.0];
+    let travelled = [1.1 * time + 2.0 * own.cos() * spent, 4.5 * (time / 9.0).sin() + 2.0 * own.sin() * spent];
+    let wrapped = |axis: usize| (25.0 * share(index, 4 + axis) + travelled[axis]).rem_euclid(25.0);
+    ([wrapped(0), wrapped(1), 0.0], unit(velocity))
 }
 
 fn unit(vector: [f64; 3]) -> [f64; 3] {
@@ -319,5 +326,110 @@ fn page() -> Page {
                  [space]\nsize = [40, 40, 20]  # m\nboundary = \"walls\"\n\n[group.herring]\ncount = 60\nbody = { radius = 0.4 }\n"
             .into(),
         made_by: "Made by flockworks 0.1.0, seed 2026".into(),
+    }
+}
+
+/// Everything that can be wrong with what is to be shown.
+fn strange() -> Page {
+    let hostile = "</script><script>globalThis.escaped=1</script><img src=x onerror=globalThis.escaped=1>\u{1f41f}";
+    let unbroken = "a-name-without-any-place-to-break-it-".repeat(6);
+    let line = |name: &str, x: &[f64], y: &[Option<f64>]| Line { name: name.into(), x: x.to_vec(), y: y.to_vec() };
+    let lines = |id: &str, lines: Vec<Line>| {
+        let axis = || axis(hostile, "1", Some((f64::NAN, 1.0)));
+        Figure::Lines(Lines { id: id.into(), title: id.into(), about: hostile.into(), x: axis(), y: axis(), lines })
+    };
+    let stage = |dimensions: usize, high: [f64; 3], edges: Border| Stage {
+        dimensions,
+        low: [0.0; 3],
+        high,
+        edges: [edges; 3],
+        unit: "1".into(),
+        groups: vec![hostile.into()],
+        radius: vec![f64::NAN],
+    };
+    let rod = Outline::Segment { from: [1.0; 3], to: [4.0, 2.0, 0.0] };
+    let shapes = vec![
+        Outline::Cuboid { low: [1.0; 3], high: [2.0; 3] },
+        Outline::Ball { centre: [f64::NAN; 3], radius: 1.0 },
+        Outline::Polygon(vec![[5.0, 5.0, 0.0], [7.0, 5.0, 0.0], [6.0, 8.0, 0.0]]),
+        Outline::Polygon(vec![]),
+        rod,
+    ];
+    let replay = |title: &str, stage: Stage, times: Vec<f64>, agents: usize| {
+        let place = |frame: usize, agent: usize| match (frame + agent) % 5 {
+            4 => [f32::NAN; 3],
+            place => [place as f32 * 2.0, agent as f32, 0.5],
+        };
+        let heading = |agent: usize| if agent.is_multiple_of(2) { [0.0; 3] } else { [0.0, 0.6, 0.8] };
+        let frames = 0..times.len();
+        Figure::Replay(Replay {
+            title: title.into(),
+            about: String::new(),
+            stage,
+            time_unit: String::new(),
+            group: (0..agents).map(|agent| agent % 9).collect(),
+            position: frames.clone().map(|frame| (0..agents).map(|agent| place(frame, agent)).collect()).collect(),
+            heading: frames.clone().map(|_| (0..agents).map(heading).collect()).collect(),
+            obstacles: frames.map(|_| shapes.clone()).collect(),
+            times,
+        })
+    };
+    let scenes = |title: &str, stage: Stage| {
+        let agent = |index: usize| Seen {
+            group: index,
+            position: [index as f64, 2.0, if index == 3 { f64::NAN } else { 0.5 }],
+            heading: [0.0, 1.0, 0.0],
+            trail: vec![[f64::NAN; 3], [0.0; 3]],
+        };
+        let full = Moment {
+            time: -1.5e-7,
+            agents: (0..9).map(agent).collect(),
+            items: vec![[f64::INFINITY; 3], [1.0; 3]],
+            obstacles: shapes.clone(),
+        };
+        let empty = Moment { time: f64::NAN, agents: vec![], items: vec![], obstacles: vec![] };
+        Figure::Scenes(Scenes {
+            title: title.into(),
+            about: String::new(),
+            stage,
+            time_unit: "1".into(),
+            moments: vec![full, empty],
+        })
+    };
+    let names: Vec<String> = (0..23).map(|index| format!("line {index}")).collect();
+    let many =
+        names.iter().enumerate().map(|(i, name)| line(name, &[0.0, 1.0], &[Some(i as f64), Some(2.0 * i as f64)]));
+    Page {
+        title: hostile.into(),
+        lead: vec![unbroken.clone()],
+        methods: vec![hostile.into()],
+        summary: vec![Fact { label: unbroken.clone(), value: unbroken.clone() }],
+        figures: vec![
+            replay("No frames", stage(2, [10.0; 3], Border::Wall), vec![], 3),
+            replay("No agents", stage(3, [10.0; 3], Border::Seam), vec![0.0, 1.0], 0),
+            replay("A line", stage(1, [10.0, 0.0, 0.0], Border::Wall), vec![0.0, 1.0, 2.0], 7),
+            replay("No extent", stage(3, [0.0; 3], Border::Wall), vec![0.0, f64::NAN], 7),
+            replay("A plane with obstacles that move", stage(2, [10.0, 5.0, 0.0], Border::Open), vec![1.0, 1.0], 12),
+            lines("none", vec![]),
+            lines("empty", vec![line("a", &[], &[])]),
+            lines("one", vec![line("a", &[1.0], &[Some(1.0)])]),
+            lines("missing", vec![line("a", &[1.0, 2.0], &[None, None])]),
+            lines("equal", vec![line(&unbroken, &[1.0, 2.0], &[Some(3.0), Some(3.0)]), line(hostile, &[1.0], &[None])]),
+            lines("huge", vec![line("a", &[0.0, 1.0, 2.0], &[Some(-f64::MAX), Some(f64::MAX), Some(f64::NAN)])]),
+            lines(
+                "apart",
+                vec![line("a", &[0.0, 1.0], &[Some(1.0), Some(2.0)]), line("b", &[0.3, 0.6], &[Some(2.0), None])],
+            ),
+            lines("nowhere", vec![line("a", &[f64::NAN, f64::INFINITY], &[Some(1.0), Some(2.0)])]),
+            lines("many", many.collect()),
+            scenes("A line", stage(1, [10.0, 0.0, 0.0], Border::Seam)),
+            scenes("No extent", stage(2, [0.0; 3], Border::Wall)),
+            scenes("A corridor", stage(2, [100.0, 1.0, 0.0], Border::Wall)),
+            scenes("A shaft", stage(3, [1.0, 1.0, 200.0], Border::Seam)),
+        ],
+        tables: vec![Table { file: hostile.into(), about: unbroken.clone(), csv: String::new() }],
+        command: unbroken.repeat(3),
+        source: hostile.into(),
+        made_by: unbroken,
     }
 }

@@ -10,6 +10,7 @@ macro_rules! say {
     }};
 }
 
+mod browser;
 mod check;
 mod code;
 mod docs;
@@ -28,7 +29,7 @@ const USAGE: &str = "\
 cargo xtask TASK
 
   check            formatting, clippy, and the rules of the house
-  test             check, then every test of the workspace; the last line is \"N passed, N failed\"
+  test             check, then every test, of pages in a browser too; the last line is \"N passed, N failed\"
   bench [ARGS]     flockworks bench, release build; the arguments are passed on
   docs [--check]   write docs/models from the code, or only say whether it is up to date
   new-model NAME   write a model file and its line in the list of models

@@ -1,5 +1,6 @@
-//! `cargo xtask test`: check, then every test, with the sum over all test binaries as the last line.
+//! `cargo xtask test`: check, then every test, with the sum over all test binaries and the browser as the last line.
 
+use crate::browser;
 use crate::check;
 use crate::failure::Failure;
 use crate::workspace::{Workspace, not_run};
@@ -52,6 +53,9 @@ pub(crate) fn test(workspace: &Workspace) -> Result<(), Failure> {
         say!("a crate did not build, or a test binary did not reach its end: counted as one failure");
         sum.failed = 1;
     }
+    let pages = browser::test(workspace)?;
+    sum.passed += pages.passed;
+    sum.failed += pages.failed;
     if checked.is_err() {
         say!("the checks before the tests did not pass: see the top of this output");
     }

@@ -3,7 +3,7 @@
 use super::escape::markup;
 use super::number::{axis_title, number, place};
 use super::palette::{DASHES, SERIES};
-use super::ticks::{Ticks, ends, rounded_ends, ticks};
+use super::ticks::{FURTHEST, Ticks, ends, rounded_ends, ticks};
 use super::{Line, Lines};
 use core::fmt::Write;
 use serde_json::{Value, json};
@@ -20,6 +20,10 @@ const ROW: f64 = 18.0;
 const SAMPLE: f64 = 24.0;
 /// Columns in which a line keeps its extremes, per unit of the drawing.
 const COLUMNS: f64 = 2.0;
+
+/// About how many marks the axes have.
+const X_MARKS: usize = 6;
+const Y_MARKS: usize = 5;
 
 /// A chart, ready for the page.
 pub(super) struct Chart {
@@ -41,10 +45,10 @@ struct Plot {
 
 impl Plot {
     fn across(&self, x: f64) -> f64 {
-        self.left + (x - self.x.0) / (self.x.1 - self.x.0) * (self.right - self.left)
+        self.left + (x.clamp(-FURTHEST, FURTHEST) - self.x.0) / (self.x.1 - self.x.0) * (self.right - self.left)
     }
     fn down(&self, y: f64) -> f64 {
-        self.bottom - (y - self.y.0) / (self.y.1 - self.y.0) * (self.bottom - self.top)
+        self.bottom - (y.clamp(-FURTHEST, FURTHEST) - self.y.0) / (self.y.1 - self.y.0) * (self.bottom - self.top)
     }
 }
 
@@ -55,9 +59,9 @@ pub(super) fn chart(lines: &Lines, id: &str) -> Chart {
     let y_values = || values().filter_map(|(_, y)| y);
     let y = match lines.y.range {
         Some(_) => ends(lines.y.range, y_values()),
-        None => rounded_ends(ends(None, y_values()), 4),
+        None => rounded_ends(ends(None, y_values()), Y_MARKS),
     };
-    let (x_ticks, y_ticks) = (ticks(x, 5), ticks(y, 4));
+    let (x_ticks, y_ticks) = (ticks(x, X_MARKS), ticks(y, Y_MARKS));
     let widest = y_ticks.labels.iter().map(|label| label.chars().count()).max().unwrap_or(0);
     let legend = Legend::of(&lines.lines, WIDTH);
     let top = legend.height + 26.0;
@@ -157,21 +161,22 @@ impl<'a> Legend<'a> {
                 place(base - 4.0),
                 place(left + SAMPLE + 6.0),
                 place(base),
-                markup(&shortened(name))
+                markup(&shortened(name, NAME))
             );
         }
     }
 }
 
-/// Most letters of a name in a legend.
+/// Most letters of a name in a legend, and of the words at an axis.
 const NAME: usize = 44;
+const AXIS: usize = 48;
 
-/// A name that fits into a legend.
-fn shortened(name: &str) -> String {
-    if name.chars().count() <= NAME {
-        return name.to_owned();
+/// A text of at most so many letters.
+fn shortened(text: &str, letters: usize) -> String {
+    if text.chars().count() <= letters {
+        return text.to_owned();
     }
-    name.chars().take(NAME - 1).chain(['\u{2026}']).collect()
+    text.chars().take(letters - 1).chain(['\u{2026}']).collect()
 }
 
 fn axes(svg: &mut String, lines: &Lines, plot: &Plot, x_ticks: &Ticks, y_ticks: &Ticks) {
@@ -179,7 +184,7 @@ fn axes(svg: &mut String, lines: &Lines, plot: &Plot, x_ticks: &Ticks, y_ticks: 
         svg,
         "<text class=\"axis\" x=\"0\" y=\"{}\">{}</text>",
         place(plot.top - 12.0),
-        markup(&axis_title(&lines.y.label, &lines.y.unit))
+        markup(&shortened(&axis_title(&lines.y.label, &lines.y.unit), AXIS))
     );
     let mut grid = String::new();
     for (&value, label) in y_ticks.places.iter().zip(&y_ticks.labels) {
@@ -212,7 +217,7 @@ fn axes(svg: &mut String, lines: &Lines, plot: &Plot, x_ticks: &Ticks, y_ticks: 
         "<text class=\"axis\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
         place((plot.left + plot.right) / 2.0),
         place(plot.bottom + 36.0),
-        markup(&axis_title(&lines.x.label, &lines.x.unit))
+        markup(&shortened(&axis_title(&lines.x.label, &lines.x.unit), AXIS))
     );
 }
 
@@ -312,6 +317,7 @@ fn data(lines: &Lines, id: &str, plot: &Plot) -> Value {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 mod tests {
     use super::super::Axis;
     use super::*;

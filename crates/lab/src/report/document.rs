@@ -47,7 +47,9 @@ pub fn html(page: &Page) -> String {
             "csv": table.csv,
         })).collect::<Vec<_>>(),
     }));
-    let nonce = nonce(&[&page.title, &data]);
+    let words = [&page.title, &page.command, &page.source, &page.made_by, &data].into_iter();
+    let facts = page.summary.iter().flat_map(|fact| [&fact.label, &fact.value]);
+    let nonce = nonce(words.chain(&page.lead).chain(&page.methods).chain(facts));
     let summary: Vec<Value> =
         page.summary.iter().map(|fact| context! { label => &fact.label, value => &fact.value }).collect();
     let tables: Vec<Value> =
@@ -145,6 +147,7 @@ fn scenes_figure(scenes: &Scenes, number: usize) -> Value {
         obstacles => scenes.moments.iter().any(|moment| !moment.obstacles.is_empty()),
         food => scenes.moments.iter().any(|moment| !moment.items.is_empty()),
         file => escape::file_name(&scenes.title.to_lowercase(), &format!("scenes-{number}")),
+        space => replay::axes(&scenes.stage) == 3,
         moments,
     }
 }
@@ -169,17 +172,18 @@ fn described_table(table: &Table, index: usize) -> Value {
     }
 }
 
-/// A word that only this page's own scripts and styles carry. It follows from all that is in the page, so no text in
-/// the page can name it.
-fn nonce(texts: &[&str]) -> String {
-    let hash = |start: u64| {
-        let bytes = texts.iter().flat_map(|text| text.bytes().chain([0]));
-        bytes.fold(start, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
-    };
-    format!("{:016x}{:016x}", hash(0xcbf2_9ce4_8422_2325), hash(0x9e37_79b9_7f4a_7c15))
+/// A word that only this page's own scripts and styles carry. It follows from the words and the data of the page, so
+/// that none of them can name it.
+fn nonce<'a>(texts: impl Iterator<Item = &'a String>) -> String {
+    let mut hashes = [0xcbf2_9ce4_8422_2325_u64, 0x9e37_79b9_7f4a_7c15];
+    for byte in texts.flat_map(|text| text.bytes().chain([0])) {
+        hashes = hashes.map(|hash| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3));
+    }
+    format!("{:016x}{:016x}", hashes[0], hashes[1])
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 mod tests {
     use super::super::{Axis, Border, Fact, Line, Moment, Outline, Seen};
     use super::*;
@@ -327,6 +331,7 @@ mod tests {
     #[test]
     fn the_same_page_gives_the_same_bytes_and_another_one_another_nonce() {
         assert_eq!(html(&hostile()), html(&hostile()));
-        assert_ne!(nonce(&["a", "b"]), nonce(&["ab", ""]));
+        let of = |texts: [&str; 2]| nonce(texts.map(str::to_owned).iter());
+        assert_ne!(of(["a", "b"]), of(["ab", ""]));
     }
 }

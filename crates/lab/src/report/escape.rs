@@ -35,6 +35,7 @@ pub(super) fn file_name(name: &str, otherwise: &str) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 mod tests {
     use super::*;
     use serde_json::json;

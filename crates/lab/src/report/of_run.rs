@@ -1,6 +1,8 @@
 //! The page of a run, from its folder.
 
-use super::{Axis, Border, Fact, Figure, Line, Lines, Moment, Outline, Page, Replay, Scenes, Seen, Stage, Table as Download};
+use super::{
+    Axis, Border, Fact, Figure, Line, Lines, Moment, Outline, Page, Replay, Scenes, Seen, Stage, Table as Download,
+};
 use crate::run::{EVENTS, METRICS, TRAJECTORY, tables};
 use crate::scenario::build::{self, Read, Schedule};
 use crate::scenario::{Scenario, describe};
@@ -29,8 +31,8 @@ const DOWNLOADED: usize = 2 << 20;
 /// Where a table cannot be read.
 pub fn page(folder: &Path, read: &Read, seed: u64, quick: bool, program: &str) -> Result<Page, StoreError> {
     let scenario = &read.scenario;
-    let schedule =
-        build::schedule(scenario, quick).map_err(|wrong| StoreError::Refused(format!("{}: {}", wrong.path, wrong.what)))?;
+    let schedule = build::schedule(scenario, quick)
+        .map_err(|wrong| StoreError::Refused(format!("{}: {}", wrong.path, wrong.what)))?;
     let metrics = Table::open(&folder.join(METRICS))?;
     let measured = Measured::read(&metrics)?;
     let mut figures = Vec::new();
@@ -70,11 +72,7 @@ pub fn page(folder: &Path, read: &Read, seed: u64, quick: bool, program: &str) -
         summary: summary(scenario, &schedule, seed, &measured),
         figures,
         tables: downloads,
-        command: format!(
-            "flockworks run {name} --seed {seed}{}{}",
-            if quick { " --quick" } else { "" },
-            sets.concat()
-        ),
+        command: format!("flockworks run {name} --seed {seed}{}{}", if quick { " --quick" } else { "" }, sets.concat()),
         source: read.sources.text(0).to_owned(),
         made_by: format!("{program}, seed {seed}"),
     })
@@ -149,15 +147,20 @@ impl Measured {
                     title: card.title.into(),
                     about: card.definition.split_whitespace().collect::<Vec<_>>().join(" "),
                     x: x.clone(),
-                    y: Axis { label: card.title.to_lowercase(), unit: unit.clone(), range: natural.then_some((0.0, 1.0)) },
+                    y: Axis {
+                        label: card.title.to_lowercase(),
+                        unit: unit.clone(),
+                        range: natural.then_some((0.0, 1.0)),
+                    },
                     lines: (0..self.groups.len()).map(|g| self.line(g, column, self.groups[g].clone())).collect(),
                 }));
                 column += 1;
                 continue;
             }
-            if let Some((state, labels)) = states(scenario).into_iter().find(|(state, labels)| {
-                labels.first().is_some_and(|label| tables::share_name(state, label) == *name)
-            }) {
+            if let Some((state, labels)) = states(scenario)
+                .into_iter()
+                .find(|(state, labels)| labels.first().is_some_and(|label| tables::share_name(state, label) == *name))
+            {
                 for group in 0..self.groups.len() {
                     let known = self.values[group][column].iter().any(|value| value.is_finite());
                     if !known {
@@ -221,7 +224,10 @@ fn summary(scenario: &Scenario, schedule: &Schedule, seed: u64, measured: &Measu
     let time = &scenario.units.time;
     let mut facts = vec![
         fact("Agents", agents.to_string()),
-        fact("Simulated", format!("{} {time} in {} steps", short(schedule.step * schedule.steps as f64), schedule.steps)),
+        fact(
+            "Simulated",
+            format!("{} {time} in {} steps", short(schedule.step * schedule.steps as f64), schedule.steps),
+        ),
         fact("Seed", seed.to_string()),
     ];
     let last = measured.groups.len().saturating_sub(1);
@@ -381,7 +387,9 @@ impl Motion {
             for row in 0..frame.len() {
                 let (frame, id) = (frame[row] as usize, id[row] as usize);
                 if frame >= frames || id >= agents {
-                    return Err(StoreError::Damaged("the trajectory names a frame or an agent that is not there".into()));
+                    return Err(StoreError::Damaged(
+                        "the trajectory names a frame or an agent that is not there".into(),
+                    ));
                 }
                 motion.time[frame] = read[1].number(row);
                 if id % every != 0 {
@@ -473,10 +481,14 @@ impl Motion {
             items: Vec::new(),
             obstacles: setting.at(self.time[frame]),
         };
-        let views = if setting.dimensions == 3 { " Each is seen from above, from the front and from the side." } else { "" };
+        let views =
+            if setting.dimensions == 3 { " Each is seen from above, from the front and from the side." } else { "" };
         Some(Figure::Scenes(Scenes {
             title: "Moments".into(),
-            about: format!("From the first to the last kept frame, with trails of up to {TRAIL} frames.{views}{}", self.drawn()),
+            about: format!(
+                "From the first to the last kept frame, with trails of up to {TRAIL} frames.{views}{}",
+                self.drawn()
+            ),
             stage: self.stage(setting, scenario),
             time_unit: scenario.units.time.clone(),
             moments: chosen.iter().map(moment).collect(),

@@ -218,7 +218,7 @@
         marks[index].setAttribute("r", shown ? 4 : 0);
         if (shown) {
           marks[index].setAttribute("cx", across(x));
-          marks[index].setAttribute("cy", down(y));
+          marks[index].setAttribute("cy", clamp(down(y), -1e5, 1e5));
         }
         const elsewhere = own.length > 0 && own[point] !== x ? ` (at ${withUnit(own[point], chart.x.unit)})` : "";
         return element("tr", {},
@@ -276,12 +276,17 @@
     const agents = group.length, axes = replay.bounds.length;
     const perFrame = agents * (2 * axes + (axes === 3 ? 2 : 1));
     const ABSENT = 65535, MOST = 65534;
-    const position = (frame, agent, axis) => {
-      const at = frame * perFrame + 2 * (axis * agents + agent);
-      const word = bytes[at] | bytes[at + 1] << 8;
-      const [low, high] = replay.bounds[axis];
-      return word === ABSENT ? NaN : low + word / MOST * (high - low);
-    };
+    const position = new Float32Array(replay.times.length * agents * 3);
+    for (let frame = 0; frame < replay.times.length; frame += 1) {
+      for (let axis = 0; axis < axes; axis += 1) {
+        const [low, high] = replay.bounds[axis];
+        for (let agent = 0; agent < agents; agent += 1) {
+          const at = frame * perFrame + 2 * (axis * agents + agent);
+          const word = bytes[at] | bytes[at + 1] << 8;
+          position[3 * (frame * agents + agent) + axis] = word === ABSENT ? NaN : low + word / MOST * (high - low);
+        }
+      }
+    }
     const heading = (frame, agent) => {
       const at = frame * perFrame + 2 * axes * agents + agent;
       if (bytes[at] === 255) return null;
@@ -290,7 +295,10 @@
       const polar = bytes[at + agents] / 254 * Math.PI;
       return [Math.sin(polar) * Math.cos(azimuth), Math.sin(polar) * Math.sin(azimuth), Math.cos(polar)];
     };
-    const place = (frame, agent) => [0, 1, 2].map((axis) => (axis < axes ? position(frame, agent, axis) : 0));
+    const place = (frame, agent) => {
+      const at = 3 * (frame * agents + agent);
+      return [position[at], position[at + 1], position[at + 2]];
+    };
     return { group, agents, axes, place, heading };
   };
 
@@ -300,7 +308,9 @@
     return [5, 2, 1].map((digit) => digit * power).find((length) => length <= most * (1 + 1e-9)) ?? power;
   };
 
-  const TRAIL = 24, FADES = 5, ROOM = 12, FOOT = 30, DRAWER = 3;
+  // a trail is so many frames long, and shorter where there are so many agents that drawing would falter
+  const TRAIL = 24, TRAIL_STEPS = 30000, MANY = 800;
+  const FADES = 5, ROOM = 12, FOOT = 30, DRAWER = 3;
   const ARROW = [[1, 0], [-0.8, 0.68], [-0.4, 0], [-0.8, -0.68]];
   const FIRST_VIEW = { turn: -0.62, tilt: 0.5, zoom: 1 };
 
@@ -331,6 +341,21 @@
     };
     const series = (group) => colours.series[group % colours.series.length];
 
+    const radius = Math.hypot(...size) / 2;
+    const corner = (bits) => [0, 1, 2].map((axis) => (bits >> axis & 1 ? stage.high[axis] : stage.low[axis]));
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(corner);
+    /** A camera that looks at the middle of the stage from a distance, upright. */
+    const camera = ({ turn, tilt }, scale, offset) => {
+      const far = 3.4 * radius;
+      const [cosTurn, sinTurn, cosTilt, sinTilt] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
+      return (place) => {
+        const x = place[0] - centre[0], y = place[1] - centre[1], z = place[2] - centre[2];
+        const across = x * cosTurn - y * sinTurn, away = x * sinTurn + y * cosTurn;
+        const up = z * cosTilt + away * sinTilt, depth = away * cosTilt - z * sinTilt;
+        const here = scale * far / Math.max(far + depth, 0.05 * far);
+        return [offset[0] + across * here, offset[1] - up * here, depth, here];
+      };
+    };
     // from a place on the stage to the screen: [across, down, depth, units of the screen per unit of length]
     let project;
     const aim = () => {
@@ -341,17 +366,13 @@
         project = ([x, y]) => [middle[0] + (x - centre[0]) * scale, middle[1] - (y - centre[1]) * scale, 0, scale];
         return;
       }
-      const radius = Math.hypot(...size) / 2, far = 3.4 * radius;
-      const scale = Math.min(inside[0] / 2.05, inside[1] / 1.75) / radius * view.zoom;
-      const [cosTurn, sinTurn] = [Math.cos(view.turn), Math.sin(view.turn)];
-      const [cosTilt, sinTilt] = [Math.cos(view.tilt), Math.sin(view.tilt)];
-      project = (place) => {
-        const [x, y, z] = [0, 1, 2].map((axis) => place[axis] - centre[axis]);
-        const across = x * cosTurn - y * sinTurn, away = x * sinTurn + y * cosTurn;
-        const up = z * cosTilt + away * sinTilt, depth = away * cosTilt - z * sinTilt;
-        const here = scale * far / Math.max(far + depth, 0.05 * far);
-        return [middle[0] + across * here, middle[1] - up * here, depth, here];
-      };
+      // the whole stage fits into the first view; turning it changes nothing but the direction
+      const seen = corners.map(camera(FIRST_VIEW, 1, [0, 0]));
+      const [lefts, tops] = [0, 1].map((axis) => seen.map((place) => place[axis]));
+      const [least, most] = [[Math.min(...lefts), Math.min(...tops)], [Math.max(...lefts), Math.max(...tops)]];
+      const scale = 0.97 * Math.min(...[0, 1].map((axis) => inside[axis] / (most[axis] - least[axis])));
+      const offset = [0, 1].map((axis) => middle[axis] - scale * view.zoom * (least[axis] + most[axis]) / 2);
+      project = camera(view, scale * view.zoom, offset);
     };
 
     const path = (places, closed) => {
@@ -360,8 +381,8 @@
       if (closed) pen.closePath();
     };
     const edge = (kind) => {
-      pen.strokeStyle = kind === "wall" ? colours.text : colours.faint;
-      pen.lineWidth = kind === "wall" ? (space ? 1.1 : 2) : 1.1;
+      pen.strokeStyle = kind === "wall" && !space ? colours.text : colours.faint;
+      pen.lineWidth = kind === "wall" && !space ? 2 : 1.1;
       pen.setLineDash(kind === "seam" ? [5, 5] : []);
       pen.stroke();
       pen.setLineDash([]);
@@ -370,7 +391,6 @@
     /** The ends of the stage, as things to draw: [depth, act]. */
     const edges = () => {
       const things = [];
-      const corner = (bits) => [0, 1, 2].map((axis) => (bits >> axis & 1 ? stage.high[axis] : stage.low[axis]));
       for (let axis = 0; axis < stage.axes; axis += 1) {
         for (let bits = 0; bits < 1 << stage.axes; bits += 1) {
           if (bits >> axis & 1) continue;
@@ -392,13 +412,36 @@
       return things;
     };
 
-    const paint = () => { pen.fillStyle = colours.obstacle; pen.fill(); pen.strokeStyle = colours.faint; pen.lineWidth = 0.8; pen.stroke(); };
+    const paint = (shade = 0, fill = colours.obstacle) => {
+      pen.fillStyle = fill;
+      pen.fill();
+      pen.globalAlpha = shade;
+      pen.fillStyle = colours.faint;
+      pen.fill();
+      pen.globalAlpha = 1;
+      pen.strokeStyle = colours.faint;
+      pen.lineWidth = 0.8;
+      pen.stroke();
+    };
+    /** What is far away in space is paler. */
+    const paleness = (depth) => (space ? 1 - 0.5 * clamp((depth / radius + 1) / 2, 0, 1) : 1);
     /** An obstacle as things to draw. */
     const obstacle = (outline) => {
       if (outline.ball) {
         const [x, y, depth, scale] = project(outline.ball);
         const radius = Math.max(1, outline.radius * scale);
-        return [[depth, () => { pen.beginPath(); pen.arc(x, y, radius, 0, 2 * Math.PI); paint(); }]];
+        return [[depth, () => {
+          let fill = colours.obstacle;
+          if (space) {
+            fill = pen.createRadialGradient(x - radius * 0.35, y - radius * 0.4, radius * 0.1, x, y, radius * 1.25);
+            const [lit, rim] = isDark() ? [colours.faint, colours.obstacle] : [colours.obstacle, colours.faint];
+            fill.addColorStop(0, lit);
+            fill.addColorStop(1, rim);
+          }
+          pen.beginPath();
+          pen.arc(x, y, radius, 0, 2 * Math.PI);
+          paint(0, fill);
+        }]];
       }
       if (outline.segment) {
         const ends = outline.segment.map(project);
@@ -421,10 +464,10 @@
           }
         }
       }
-      return faces.map((corners) => {
-        const seen = corners.map(project);
+      return faces.map((face, index) => {
+        const seen = face.map(project);
         const depth = seen.reduce((sum, place) => sum + place[2], 0) / seen.length;
-        return [depth, () => { path(seen, true); paint(); }];
+        return [depth, () => { path(seen, true); paint(space ? [0.32, 0.16, 0][index >> 1] ?? 0 : 0); }];
       });
     };
 
@@ -436,7 +479,7 @@
       const group = data.group[index];
       const half = clamp((stage.radius[group] ?? 0) * scale, space ? smallest * scale / project(centre)[3] : smallest, 80);
       const heading = data.heading(frame, index);
-      let corners = null;
+      let arrow = null;
       if (heading) {
         const ahead = 1e-3 * Math.max(...size) || 1;
         const [u, v] = project(place.map((value, axis) => value + ahead * heading[axis]));
@@ -444,26 +487,30 @@
         const seen = Math.min(1, length / (ahead * scale));
         if (seen > 0.2) {
           const [cos, sin] = [across / length, down / length];
-          corners = ARROW.map(([along, aside]) => {
+          arrow = ARROW.map(([along, aside]) => {
             const [a, b] = [along * half * Math.max(seen, 0.5), aside * half];
             return [x + a * cos - b * sin, y + a * sin + b * cos];
           });
         }
       }
       return [depth, () => {
-        if (corners) path(corners, true); else { pen.beginPath(); pen.arc(x, y, half * 0.6, 0, 2 * Math.PI); }
+        pen.globalAlpha = paleness(depth);
+        if (arrow) path(arrow, true); else { pen.beginPath(); pen.arc(x, y, half * 0.6, 0, 2 * Math.PI); }
         pen.fillStyle = series(group);
         pen.fill();
-        pen.strokeStyle = colours.stage;
-        pen.lineWidth = 0.7;
-        pen.stroke();
+        if (data.agents <= MANY) {
+          pen.strokeStyle = colours.stage;
+          pen.lineWidth = 0.7;
+          pen.stroke();
+        }
+        pen.globalAlpha = 1;
       }];
     };
 
-    const crossesSeam = (from, to) => [0, 1, 2].some((axis) =>
-      axis < stage.axes && stage.edges[axis] === "seam" && Math.abs(to[axis] - from[axis]) > size[axis] / 2);
+    const seams = [0, 1, 2].filter((axis) => axis < stage.axes && stage.edges[axis] === "seam");
+    const crossesSeam = (from, to) => seams.some((axis) => Math.abs(to[axis] - from[axis]) > size[axis] / 2);
     const drawTrails = () => {
-      const first = Math.max(0, frame - TRAIL), steps = frame - first;
+      const first = Math.max(0, frame - clamp(Math.round(TRAIL_STEPS / data.agents), 4, TRAIL)), steps = frame - first;
       if (steps === 0) return;
       const paths = new Map();
       for (let index = 0; index < data.agents; index += 1) {
@@ -497,7 +544,7 @@
       pen.fillStyle = colours.faint;
       pen.font = "12px system-ui, sans-serif";
       pen.textAlign = "left";
-      pen.fillText(withUnit(length, stage.unit), ROOM + length * scale + 7, base + 1);
+      pen.fillText(withUnit(length, stage.unit) + (space ? " in the middle" : ""), ROOM + length * scale + 7, base + 1);
       if (frames > 0) {
         pen.textAlign = "right";
         pen.fillText(`t = ${withUnit(times[frame], replay.timeUnit)}`, wide - ROOM, base + 1);
@@ -521,7 +568,7 @@
       const behind = edges();
       if (!space) things.splice(0).forEach(([, act]) => act());
       if (frames > 0 && trails.checked) drawTrails();
-      const smallest = data.agents > 800 ? 3 : 5;
+      const smallest = (data.agents > MANY ? 3 : 5) * (space ? 1.2 : 1) * (wide < 500 ? 0.8 : 1);
       for (let index = 0; frames > 0 && index < data.agents; index += 1) {
         const thing = agent(index, smallest);
         if (thing) things.push(thing);
@@ -667,5 +714,11 @@
     addEventListener("afterprint", repaint);
   };
   all("[data-replay]").forEach(play);
+
+  // on paper nobody can unfold anything
+  const folded = () => all("details.source:not([open])");
+  let unfolded = [];
+  addEventListener("beforeprint", () => { unfolded = folded(); for (const part of unfolded) part.open = true; });
+  addEventListener("afterprint", () => { for (const part of unfolded) part.open = false; });
   showTheme();
 })();

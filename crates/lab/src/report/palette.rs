@@ -12,7 +12,7 @@ type Colour = (&'static str, &'static str, &'static str);
 pub(super) const SERIES: usize = 7;
 
 /// Dashes, one for each series in turn; empty is a solid line. Lengths in units of the drawing.
-pub(super) const DASHES: [&str; 6] = ["", "7 3", "2 2.6", "9 3 2 3", "4 2", "9 3 2 3 2 3"];
+pub(super) const DASHES: [&str; 6] = ["", "7 2.5", "3 1.6", "11 2.5 2.5 2.5", "5 3.5", "1.6 1.6"];
 
 /// Every colour of the page.
 pub(super) const COLOURS: &[Colour] = &[
@@ -51,6 +51,7 @@ pub(super) fn style() -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 mod tests {
     use super::*;
 

@@ -18,6 +18,8 @@ const ROOM: f64 = 7.0;
 const NARROWEST: f64 = 30.0;
 /// Height of the line of words above a view in space.
 const WORDS: f64 = 18.0;
+/// Room for the name of a view.
+const NAMED: f64 = 126.0;
 /// Distance between views.
 const GAP: f64 = 10.0;
 /// Least half length of an agent.
@@ -84,8 +86,9 @@ impl Layout {
                 let beside = inside - 2.0 * ROOM - GAP;
                 scale = fitting(size[0] + size[1], beside).min(fitting(size[1] + size[2], TALLEST));
                 let [x, y, z] = [0, 1, 2].map(|axis| wide(scale, axis).min(beside));
-                let left = ((WIDTH - x - y - 2.0 * ROOM - GAP) / 2.0).max(ROOM);
-                let (second, below) = (left + x + 2.0 * ROOM + GAP, WORDS + y + 2.0 * ROOM + WORDS + GAP);
+                let aside = (x + 2.0 * ROOM + GAP).max(NAMED);
+                let left = ((WIDTH - aside - y) / 2.0).max(ROOM);
+                let (second, below) = (left + aside, WORDS + y + 2.0 * ROOM + WORDS + GAP);
                 let view = |name, right, up, left, top, width, height| View {
                     name,
                     right,
@@ -135,7 +138,7 @@ pub(super) fn scene(scenes: &Scenes, moment: &Moment) -> String {
                 svg,
                 "<text class=\"view\" x=\"{}\" y=\"{}\">from {} <tspan class=\"axes\">{}\u{2009}\u{2192} {up}\u{2009}\u{2191}</tspan></text>",
                 place(view.left),
-                place(view.top - 6.0),
+                place(view.top - ROOM - 4.0),
                 view.name,
                 AXES[view.right]
             );

@@ -14,7 +14,7 @@ pub(super) struct Ticks {
 }
 
 /// Nothing of what is drawn may lie further out: differences stay finite.
-const FURTHEST: f64 = 1e300;
+pub(super) const FURTHEST: f64 = 1e300;
 
 /// The ends of an axis: the fixed ends where they make sense, moved outwards so far that every value is shown. Values
 /// that are all equal get room on both sides. Without values: 0 to 1. The ends are finite, and the first is less.
