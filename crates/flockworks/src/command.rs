@@ -3,9 +3,7 @@
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
-use crate::files::{
-    self, CompletionsOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions,
-};
+use crate::files::{self, CompletionsOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions};
 use crate::models::{ModelsOptions, models};
 use crate::run::{self, CheckOptions, ReportOptions, RunOptions};
 use crate::step::{StepOptions, step};

@@ -116,13 +116,21 @@ pub fn metrics(options: &MetricsOptions, out: &mut dyn Write) -> Result<(), Faul
     writeln!(out, "Definition\n  {} = {}", card.symbol, card.definition.replace('\n', "\n  "))?;
     writeln!(out, "Unit\n  {}", card.unit)?;
     writeln!(out, "Source\n  {}", card.source)?;
-    writeln!(out, "Members counted\n  {}", match card.counted {
-        measure::Counted::Positions => "those with a position",
-        measure::Counted::Velocities => "those with a position and a velocity",
-        measure::Counted::Headings => "those with a heading, that is with a speed above 1e-12",
-    })?;
+    writeln!(
+        out,
+        "Members counted\n  {}",
+        match card.counted {
+            measure::Counted::Positions => "those with a position",
+            measure::Counted::Velocities => "those with a position and a velocity",
+            measure::Counted::Headings => "those with a heading, that is with a speed above 1e-12",
+        }
+    )?;
     let edge = &card.edge;
-    writeln!(out, "Where there is little to measure\n  no members: {}; one: {}; all at rest: {}", edge.empty, edge.one, edge.at_rest)?;
+    writeln!(
+        out,
+        "Where there is little to measure\n  no members: {}; one: {}; all at rest: {}",
+        edge.empty, edge.one, edge.at_rest
+    )?;
     if !card.parameters.is_empty() {
         writeln!(out, "Parameters")?;
         for p in card.parameters {
@@ -185,7 +193,8 @@ pub fn completions(options: &CompletionsOptions, out: &mut dyn Write) -> Result<
 pub fn man(options: &ManOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let folder = &options.folder;
     std::fs::create_dir_all(folder).map_err(|error| StoreError::io("make the folder", folder, error))?;
-    clap_mangen::generate_to(Line::command(), folder).map_err(|error| StoreError::io("write man pages in", folder, error))?;
+    clap_mangen::generate_to(Line::command(), folder)
+        .map_err(|error| StoreError::io("write man pages in", folder, error))?;
     writeln!(out, "{}", folder.join("flockworks.1").display())?;
     Ok(())
 }

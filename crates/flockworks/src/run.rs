@@ -123,7 +123,16 @@ impl Progress {
     fn new(agents: u64) -> Self {
         let now = Instant::now();
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-        Self { bar, quiet: !std::io::stderr().is_terminal(), began: now, told: now, from: 0, steps: 0, agents, stride: 1 }
+        Self {
+            bar,
+            quiet: !std::io::stderr().is_terminal(),
+            began: now,
+            told: now,
+            from: 0,
+            steps: 0,
+            agents,
+            stride: 1,
+        }
     }
     /// Updates of agents per second, written short.
     fn rate(&self, step: u64) -> String {
@@ -275,7 +284,10 @@ pub(crate) fn read_back(path: &Path) -> Result<(Read, u64, bool), Fault> {
         return wrong(format!("`{}` is not the folder of a run: it has no {}", path.display(), folder::MANIFEST));
     };
     if manifest.get("status").and_then(Json::as_str) != Some("complete") {
-        return wrong(format!("the run in `{}` is not complete; `flockworks run` with the same file continues it", path.display()));
+        return wrong(format!(
+            "the run in `{}` is not complete; `flockworks run` with the same file continues it",
+            path.display()
+        ));
     }
     let damaged = || Fault::Input(format!("`{}` lacks what a manifest holds", path.join(folder::MANIFEST).display()));
     let file = manifest.get("file").ok_or_else(damaged)?;

@@ -204,10 +204,9 @@ impl core::fmt::Display for Kind {
             }
             Self::List(entry) => write!(out, "a list, each entry {entry}"),
             Self::PerAgent(one) => write!(out, "{one}, or a list with one for each member"),
-            Self::Points => write!(
-                out,
-                "a point as a list of coordinates, a list with one point for each member, or an empty list"
-            ),
+            Self::Points => {
+                write!(out, "a point as a list of coordinates, a list with one point for each member, or an empty list")
+            }
         }
     }
 }
@@ -446,7 +445,10 @@ pub fn known(descriptors: &[Descriptor], values: &Values) -> Result<(), Paramete
     for name in values.keys() {
         if !descriptors.iter().any(|d| d.name == name || d.alias == Some(name)) {
             let names = descriptors.iter().flat_map(|d| [Some(d.name), d.alias].into_iter().flatten());
-            return Err(ParameterError::Unknown { name: name.clone(), nearest: nearest(name, names).map(str::to_owned) });
+            return Err(ParameterError::Unknown {
+                name: name.clone(),
+                nearest: nearest(name, names).map(str::to_owned),
+            });
         }
     }
     for d in descriptors {

@@ -5,6 +5,7 @@ use space::obstacles::{Obstacle, Plan};
 use space::shape::Shape;
 use space::{Space, Vector};
 use swarm::detection::readings::{Clustering, Matching, ReadingDetection};
+use swarm::engine::Checkpoint;
 use swarm::engine::{Clock, GroupPlan, IndexChoice, Phase, Placement, Sensing, Start};
 use swarm::models::LIST;
 use swarm::parameters::{Value, Values};
@@ -14,7 +15,6 @@ use swarm::selection::Perception;
 use swarm::sensing::robot::Robot;
 use swarm::sensing::scanner::Scanner;
 use swarm::sensing::{Ideal, Occlusion};
-use swarm::engine::Checkpoint;
 use swarm::{Driver, World, WorldPlan};
 
 fn values(pairs: &[(&str, Value)]) -> Values {

@@ -111,7 +111,13 @@ pub struct Desk {
 
 impl Desk {
     /// Notes a problem.
-    pub fn problem(&mut self, span: &Span, what: impl Into<String>, expected: impl Into<String>, help: impl Into<String>) {
+    pub fn problem(
+        &mut self,
+        span: &Span,
+        what: impl Into<String>,
+        expected: impl Into<String>,
+        help: impl Into<String>,
+    ) {
         let (what, expected, help) = (what.into(), expected.into(), help.into());
         self.problems.push(Problem { span: span.clone(), what, expected, help });
     }
@@ -683,10 +689,7 @@ mod tests {
         let disc = Disc { radius: 2.0, colour: Colour::Red, count: Some(3) };
         assert_eq!(thing, Thing::All(vec![Thing::Disc(disc), Thing::Points(4), Thing::Empty(Nothing)]));
         let json = thing.write().json().to_string();
-        assert_eq!(
-            json,
-            r#"{"all":[{"disc":{"radius":2.0,"colour":"red","count":3}},{"points":4},{"empty":{}}]}"#
-        );
+        assert_eq!(json, r#"{"all":[{"disc":{"radius":2.0,"colour":"red","count":3}},{"points":4},{"empty":{}}]}"#);
     }
 
     #[test]

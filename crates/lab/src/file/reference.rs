@@ -20,7 +20,8 @@ pub fn reference<T: Form>(title: &str, lead: &str) -> String {
             }
             Shape::Tagged { name, about, variants } if !done.contains(&name) => {
                 done.push(name);
-                let _ = write!(page, "\n## {name}\n\n{about}\nOne of:\n\n| key | below it | meaning |\n|---|---|---|\n");
+                let _ =
+                    write!(page, "\n## {name}\n\n{about}\nOne of:\n\n| key | below it | meaning |\n|---|---|---|\n");
                 for variant in variants() {
                     // the models have pages of their own
                     let below = if name == "Model" {
@@ -38,7 +39,8 @@ pub fn reference<T: Form>(title: &str, lead: &str) -> String {
 }
 
 fn section(page: &mut String, name: &str, about: &str, fields: &[Field], todo: &mut Vec<Shape>) {
-    let _ = write!(page, "\n## {name}\n\n{about}\n\n| key | takes | unit | default | meaning |\n|---|---|---|---|---|\n");
+    let _ =
+        write!(page, "\n## {name}\n\n{about}\n\n| key | takes | unit | default | meaning |\n|---|---|---|---|---|\n");
     for field in fields {
         let takes = words(&field.shape, todo);
         let default = match (&field.default, field.required) {
@@ -62,7 +64,9 @@ fn words(shape: &Shape, todo: &mut Vec<Shape>) -> String {
         Shape::Truth => "true or false".into(),
         Shape::Text => "a text".into(),
         Shape::Word(words) => {
-            let word = |(word, about): &(&str, &str)| if about.is_empty() { format!("\"{word}\"") } else { format!("\"{word}\": {about}") };
+            let word = |(word, about): &(&str, &str)| {
+                if about.is_empty() { format!("\"{word}\"") } else { format!("\"{word}\": {about}") }
+            };
             words.iter().map(word).collect::<Vec<_>>().join("<br>")
         }
         Shape::List(entry) => format!("a list of: {}", words(entry, todo)),

@@ -26,10 +26,17 @@ fn of(shape: &Shape, definitions: &mut Map<String, Json>) -> Json {
         Shape::Truth => json!({ "type": "boolean" }),
         Shape::Text => json!({ "type": "string" }),
         Shape::Word(words) => {
-            let about: Vec<String> =
-                words.iter().filter(|(_, about)| !about.is_empty()).map(|(word, about)| format!("{word}: {about}")).collect();
+            let about: Vec<String> = words
+                .iter()
+                .filter(|(_, about)| !about.is_empty())
+                .map(|(word, about)| format!("{word}: {about}"))
+                .collect();
             let words: Vec<&str> = words.iter().map(|&(word, _)| word).collect();
-            if about.is_empty() { json!({ "enum": words }) } else { json!({ "enum": words, "description": about.join("\n") }) }
+            if about.is_empty() {
+                json!({ "enum": words })
+            } else {
+                json!({ "enum": words, "description": about.join("\n") })
+            }
         }
         Shape::List(entry) => json!({ "type": "array", "items": of(entry, definitions) }),
         Shape::Either(shapes) => {
@@ -100,7 +107,8 @@ fn object(fields: &[Field], definitions: &mut Map<String, Json>) -> Json {
         } else {
             format!(" Unit: {}.", field.unit)
         };
-        let words = property.get("description").and_then(Json::as_str).map_or_else(String::new, |words| format!("\n{words}"));
+        let words =
+            property.get("description").and_then(Json::as_str).map_or_else(String::new, |words| format!("\n{words}"));
         property["description"] = json!(format!("{}{unit}{words}", field.about));
         if let Some(default) = &field.default {
             property["default"] = default.json();

@@ -137,7 +137,8 @@ mod tests {
         let mut sources = Sources::default();
         let source = sources.add("a.toml", "é");
         let span = |bytes| Span { source, bytes };
-        let problem = |bytes| Problem { span: span(bytes), what: "x".into(), expected: String::new(), help: String::new() };
+        let problem =
+            |bytes| Problem { span: span(bytes), what: "x".into(), expected: String::new(), help: String::new() };
         let problems = Problems::new(sources.clone(), vec![problem(7..9), problem(0..0)]);
         assert!(problems.to_string().contains("2 problems"));
     }

@@ -163,7 +163,9 @@ impl Node {
                         *node = value;
                         Ok(())
                     }
-                    (None, _) => Err(format!("`{first}` names none of the {count} entries of a list; they count from 0")),
+                    (None, _) => {
+                        Err(format!("`{first}` names none of the {count} entries of a list; they count from 0"))
+                    }
                 }
             }
             other => Err(format!("`{first}` would lie below {}, which is no table", other.describe())),
@@ -228,9 +230,19 @@ fn of_value(value: &DeValue<'_>, place: &Span, source: usize, problems: &mut Vec
         DeValue::String(text) => Tree::Text(text.to_string()),
         DeValue::Integer(number) => {
             let digits: String = number.as_str().chars().filter(|&c| c != '_').collect();
-            match i64::from_str_radix(&digits, number.radix()) {
-                Ok(whole) => Tree::Whole(whole),
-                Err(_) => Tree::Number(digits.parse().unwrap_or(f64::INFINITY)),
+            match (i64::from_str_radix(&digits, number.radix()), digits.parse()) {
+                (Ok(whole), _) => Tree::Whole(whole),
+                // too large for a whole number
+                (Err(_), Ok(large)) => Tree::Number(large),
+                (Err(_), Err(_)) => {
+                    problems.push(Problem {
+                        span: place.clone(),
+                        what: "not TOML: a number without digits, or too large".into(),
+                        expected: "a number".into(),
+                        help: String::new(),
+                    });
+                    Tree::Whole(0)
+                }
             }
         }
         DeValue::Float(number) => {

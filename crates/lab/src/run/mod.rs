@@ -209,7 +209,9 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     let complete = reached == schedule.steps;
     let seconds = began.elapsed().as_secs_f64();
     let updates = agents as u64 * (reached - from);
-    if let Some(Json::Object(session)) = manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|s| s.last_mut()) {
+    if let Some(Json::Object(session)) =
+        manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|s| s.last_mut())
+    {
         session.insert("seconds".into(), json!(seconds));
         session.insert("from_step".into(), json!(from));
         session.insert("to_step".into(), json!(reached));
@@ -298,7 +300,12 @@ where
             let bytes = old.read(record)?;
             let (kept, state) = recorder::Carried::split(&bytes, world.groups().len())
                 .and_then(|(kept, state)| Some((kept, Checkpoint::from_bytes(state, &world.save())?)))
-                .ok_or_else(|| StoreError::Damaged(format!("a state in `{}` does not fit; remove the folder to run anew", growing.display())))?;
+                .ok_or_else(|| {
+                    StoreError::Damaged(format!(
+                        "a state in `{}` does not fit; remove the folder to run anew",
+                        growing.display()
+                    ))
+                })?;
             world.restore(&state).map_err(|error| StoreError::Damaged(error.to_string()))?;
             carried = kept;
             from = state.step();
@@ -325,8 +332,10 @@ where
                 break 'steps false;
             }
         }
-        let frame = (scenario.record.trajectory && step >= schedule.record_from && (step - schedule.record_from).is_multiple_of(schedule.record))
-            .then(|| (step - schedule.record_from) / schedule.record);
+        let frame = (scenario.record.trajectory
+            && step >= schedule.record_from
+            && (step - schedule.record_from).is_multiple_of(schedule.record))
+        .then(|| (step - schedule.record_from) / schedule.record);
         let measured = step.is_multiple_of(schedule.measure);
         if (frame.is_some() || measured) && !recorder.send(observer.sample(&world, frame, measured)) {
             break 'steps false;

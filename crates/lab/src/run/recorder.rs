@@ -162,12 +162,7 @@ pub(super) struct Recorder<R, const D: usize> {
 
 impl<R: Scalar + Send + 'static, const D: usize> Recorder<R, D> {
     /// Starts the recorder of a world.
-    pub(super) fn start(
-        world: &World<R, D>,
-        scenario: &Scenario,
-        metrics: Vec<Box<dyn Measure<D>>>,
-        log: Log,
-    ) -> Self
+    pub(super) fn start(world: &World<R, D>, scenario: &Scenario, metrics: Vec<Box<dyn Measure<D>>>, log: Log) -> Self
     where
         Models: Catalogue<R, D>,
     {
@@ -334,10 +329,16 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
         (0..agents).for_each(|row| rows[columns.id[row] as usize] = row);
         let wide = |values: &mut Values, column: &[R], there: &dyn Fn(usize) -> bool| match values {
             Values::Single(to) => {
-                to.extend(rows.iter().enumerate().map(|(id, &row)| if there(id) { column[row].to_f64() as f32 } else { f32::NAN }));
+                to.extend(
+                    rows.iter()
+                        .enumerate()
+                        .map(|(id, &row)| if there(id) { column[row].to_f64() as f32 } else { f32::NAN }),
+                );
             }
             Values::Double(to) => {
-                to.extend(rows.iter().enumerate().map(|(id, &row)| if there(id) { column[row].to_f64() } else { f64::NAN }));
+                to.extend(
+                    rows.iter().enumerate().map(|(id, &row)| if there(id) { column[row].to_f64() } else { f64::NAN }),
+                );
             }
             Values::Long(_) | Values::Whole(_) | Values::Word(..) => {}
         };
@@ -383,14 +384,7 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
     }
 
     fn measure(&mut self, columns: &Columns<R, D>, step: u64, time: f64, contacts: &[[u64; 3]]) {
-        let frame = Frame {
-            columns,
-            declared: &self.declared,
-            groups: &self.groups,
-            space: &self.space,
-            time,
-            step,
-        };
+        let frame = Frame { columns, declared: &self.declared, groups: &self.groups, space: &self.space, time, step };
         let lives = |row: &usize| self.mortality.is_none_or(|c| columns.state[c][*row] > R::ZERO);
         let whole = self.groups.len();
         let rows_of = |group: usize| -> Vec<usize> {
@@ -446,7 +440,8 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
                 }
                 (sum, refused)
             };
-            let (sum, refused) = of_part(&mut contacts.iter().enumerate().filter(|(group, _)| part == whole || part == *group));
+            let (sum, refused) =
+                of_part(&mut contacts.iter().enumerate().filter(|(group, _)| part == whole || part == *group));
             if counted {
                 for count in sum {
                     out.whole(to, count as i64);

@@ -112,7 +112,8 @@ impl Tables {
             }
         }
         if refuses {
-            let about = "Moves that were not made since the measurement before, since they would have ended in contact.";
+            let about =
+                "Moves that were not made since the measurement before, since they would have ended in contact.";
             rows.push(Heading::new("refused_moves", "1", about, Kind::Long));
         }
         let mut groups: Vec<String> = scenario.group.0.iter().map(|(name, _)| name.clone()).collect();

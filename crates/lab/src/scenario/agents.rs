@@ -22,8 +22,12 @@ impl Distribution {
     /// Notes what cannot be.
     fn checked(self, span: &Span, desk: &mut Desk) -> Option<Self> {
         let (what, fine) = match &self {
-            Self::Normal(v) => ("normal takes [mean, standard deviation], the second 0 or more", v.len() == 2 && v[1] >= 0.0),
-            Self::Uniform(v) => ("uniform takes [least, greatest], the first not above the second", v.len() == 2 && v[0] <= v[1]),
+            Self::Normal(v) => {
+                ("normal takes [mean, standard deviation], the second 0 or more", v.len() == 2 && v[1] >= 0.0)
+            }
+            Self::Uniform(v) => {
+                ("uniform takes [least, greatest], the first not above the second", v.len() == 2 && v[0] <= v[1])
+            }
         };
         if !fine {
             desk.problem(span, what, "two numbers in order", "");
@@ -81,7 +85,9 @@ impl PerMember {
             Self::All(value) => Ok(vec![*value; count]),
             Self::Each(values) if values.len() == count => Ok(values.clone()),
             Self::Each(values) => Err(values.len()),
-            Self::Drawn(distribution) => Ok((0..count as u32).map(|k| distribution.of(seed, name, first + k)).collect()),
+            Self::Drawn(distribution) => {
+                Ok((0..count as u32).map(|k| distribution.of(seed, name, first + k)).collect())
+            }
         }
     }
 }
@@ -196,7 +202,12 @@ impl Form for Model {
             Tree::Table(entries) => match entries.as_slice() {
                 [one] => (one.key.as_str(), &one.span, Some(one)),
                 [] => {
-                    desk.problem(&node.span, "no model is named", "the id of a model", "`flockworks models` lists them");
+                    desk.problem(
+                        &node.span,
+                        "no model is named",
+                        "the id of a model",
+                        "`flockworks models` lists them",
+                    );
                     return None;
                 }
                 [_, second, ..] => {

@@ -128,7 +128,8 @@ impl BodyMobility {
                 vertical: limit.vertical.map(|rate| R::of(rate.to_radians())),
             },
             Self::DifferentialDrive(drive) => {
-                let &DifferentialDrive { wheel_base, wheel_speed, forward_speed, turn_rate, acceleration, gain } = drive;
+                let &DifferentialDrive { wheel_base, wheel_speed, forward_speed, turn_rate, acceleration, gain } =
+                    drive;
                 Mobility::DifferentialDrive(physics::DifferentialDrive {
                     wheel_base: R::of(wheel_base),
                     wheel_speed: R::of(wheel_speed),

@@ -73,7 +73,12 @@ pub fn read(name: &str, text: &str, sets: &[String]) -> Result<Read, Problems> {
     let file = sources.add(name, text);
     let mut desk = Desk::default();
     if text.trim().is_empty() {
-        desk.problem(&Span::default(), "the file is empty", "expected `kind = \"scenario\"`", "`flockworks new scenario` writes one to start from");
+        desk.problem(
+            &Span::default(),
+            "the file is empty",
+            "expected `kind = \"scenario\"`",
+            "`flockworks new scenario` writes one to start from",
+        );
         return Err(Problems::new(sources, desk.problems));
     }
     let mut tree = parse(&sources, file, &mut desk.problems);
@@ -104,7 +109,8 @@ pub fn read(name: &str, text: &str, sets: &[String]) -> Result<Read, Problems> {
         // what follows from text that could not be read would only confuse
         return Err(Problems::new(sources, desk.problems));
     }
-    let scenario = read_kind(&tree, &mut desk).and_then(|()| Scenario::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut desk));
+    let scenario = read_kind(&tree, &mut desk)
+        .and_then(|()| Scenario::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut desk));
     let Some(scenario) = scenario.filter(|_| desk.problems.is_empty()) else {
         return Err(Problems::new(sources, desk.problems));
     };
@@ -130,7 +136,12 @@ fn read_kind(tree: &Node, desk: &mut Desk) -> Option<()> {
         }
         None => {
             let start = Span { source: tree.span.source, bytes: 0..0 };
-            desk.problem(&start, "the file does not say what it is", "`kind` is missing", "begin it with kind = \"scenario\"");
+            desk.problem(
+                &start,
+                "the file does not say what it is",
+                "`kind` is missing",
+                "begin it with kind = \"scenario\"",
+            );
             None
         }
     }
@@ -191,7 +202,8 @@ pub fn schedule(scenario: &Scenario, quick: bool) -> Result<Schedule, Wrong> {
     let measure = interval(scenario.measure.interval, "measure.interval", record)?;
     let record_from = steps(scenario.record.from, "record.from")?;
     if !quick && record_from > total {
-        let what = format!("recording would begin at {}, after the end at {}", scenario.record.from, scenario.time.duration);
+        let what =
+            format!("recording would begin at {}, after the end at {}", scenario.record.from, scenario.time.duration);
         return Err(Wrong::new("record.from", what, "not after the end"));
     }
     Ok(Schedule { step, steps: total, record, record_from: record_from.min(total), measure })
@@ -261,7 +273,10 @@ fn check(scenario: &Scenario) -> Vec<Wrong> {
                 wrongs.push(Wrong::new(format!("group.{name}.sensing.laser.{key}"), what, "not possible"));
             }
             if matches!(sensing, Sensing::Laser(_)) && scenario.units.length != "m" {
-                let what = format!("a laser's numbers are in metres, and this file's lengths in \"{}\"", scenario.units.length);
+                let what = format!(
+                    "a laser's numbers are in metres, and this file's lengths in \"{}\"",
+                    scenario.units.length
+                );
                 wrongs.push(
                     Wrong::new(format!("group.{name}.sensing"), what, "needs metres").help("set units.length = \"m\""),
                 );
@@ -320,7 +335,13 @@ fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
         WorldError::Dimension { .. } => Wrong::new("space.dimensions", error.to_string(), "not for this model"),
         WorldError::Model { .. } => Wrong::new("group", error.to_string(), ""),
         WorldError::World(problem) => {
-            let place = if problem.contains("resources") { "food" } else if problem.contains("obstacle") { "obstacle" } else { "" };
+            let place = if problem.contains("resources") {
+                "food"
+            } else if problem.contains("obstacle") {
+                "obstacle"
+            } else {
+                ""
+            };
             Wrong::new(place, problem.clone(), "not possible")
         }
     }
@@ -339,7 +360,9 @@ fn space_of<R: Real, const D: usize>(written: &WrittenSpace) -> Result<Space<R, 
     for (a, edge) in edges.iter_mut().enumerate() {
         let size = || {
             let size = written.size.as_ref().and_then(|size| size.of(a));
-            size.map(R::of).ok_or_else(|| Wrong::new("space", format!("axis {a} ends, so that it needs a size"), "`size` is missing"))
+            size.map(R::of).ok_or_else(|| {
+                Wrong::new("space", format!("axis {a} ends, so that it needs a size"), "`size` is missing")
+            })
         };
         *edge = match written.edges.of(a) {
             Some(Edges::Walls) => Edge::Walls(size()?),
@@ -486,7 +509,8 @@ where
         initial_speed: prepared.initial_speed(),
     };
     let default = Start::default();
-    let start = group.start.as_ref().unwrap_or(&default).resolved(&surroundings).map_err(|wrong| wrong.below("start"))?;
+    let start =
+        group.start.as_ref().unwrap_or(&default).resolved(&surroundings).map_err(|wrong| wrong.below("start"))?;
     let mut plan = GroupPlan::new(name, id, values, group.count, Placement::Given(start));
     for (set, choice) in &group.select.0 {
         let choice = choice

@@ -33,7 +33,8 @@ fn world(scenario: &Scenario, schedule: &Schedule) -> String {
     let dimensions = scenario.space.dimensions;
     let axes = ["x", "y", "z"];
     let axis = |a: usize| {
-        let size = scenario.space.size.as_ref().and_then(|size| size.of(a)).map(|s| format!(" of {} {length}", number(s)));
+        let size =
+            scenario.space.size.as_ref().and_then(|size| size.of(a)).map(|s| format!(" of {} {length}", number(s)));
         let size = size.unwrap_or_default();
         match scenario.space.edges.of(a) {
             Some(Edges::Walls) => format!("an axis {}{size} between solid walls", axes[a]),
@@ -42,11 +43,8 @@ fn world(scenario: &Scenario, schedule: &Schedule) -> String {
         }
     };
     let parts: Vec<String> = (0..dimensions).map(axis).collect();
-    let mut text = format!(
-        "The space had {dimensions} dimension{}: {}.",
-        if dimensions == 1 { "" } else { "s" },
-        listed(&parts)
-    );
+    let mut text =
+        format!("The space had {dimensions} dimension{}: {}.", if dimensions == 1 { "" } else { "s" }, listed(&parts));
     if !scenario.obstacle.is_empty() {
         let count = scenario.obstacle.len();
         text += &format!(" It held {count} obstacle{}.", if count == 1 { "" } else { "s" });
@@ -63,7 +61,10 @@ fn world(scenario: &Scenario, schedule: &Schedule) -> String {
     }
     if let Some(food) = &scenario.food {
         let count = food.count.or(food.places.as_ref().map(Vec::len)).unwrap_or(0);
-        text += &format!(" {count} items of food were there; the nearest living agent within {} {length} consumed one.", number(food.within));
+        text += &format!(
+            " {count} items of food were there; the nearest living agent within {} {length} consumed one.",
+            number(food.within)
+        );
     }
     let order = match &scenario.time.driver {
         Driver::Synchronous(_) => "all agents read the state of one time and then moved together".to_owned(),
@@ -110,7 +111,11 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
             Given::Value(value) if *value == default_in_files(descriptor) => {}
             Given::Value(value) => {
                 let text = value.to_string();
-                let text = if text.chars().count() > 60 { "given for each member".to_owned() } else { format!("{text}{unit}") };
+                let text = if text.chars().count() > 60 {
+                    "given for each member".to_owned()
+                } else {
+                    format!("{text}{unit}")
+                };
                 changed.push(format!("{parameter} = {text}"));
             }
             Given::Drawn(distribution) => {
@@ -207,13 +212,19 @@ fn sensing(group: &Group, scenario: &Scenario) -> String {
                     number(100.0 * noise.miss)
                 ));
             }
-            if limits.is_empty() { " They sensed the others exactly.".to_owned() } else { format!(" They sensed others {}.", listed(&limits)) }
+            if limits.is_empty() {
+                " They sensed the others exactly.".to_owned()
+            } else {
+                format!(" They sensed others {}.", listed(&limits))
+            }
         }
         Some(Sensing::Laser(laser)) => {
             let detection = match laser.detection {
                 Detection::SensorBased(_) => "every bright reading was an input",
                 Detection::MemberBased(_) => "one input for each segment with the profile of a body",
-                Detection::MemberExtrapolated(_) => "every reading of a segment with the profile of a body was an input",
+                Detection::MemberExtrapolated(_) => {
+                    "every reading of a segment with the profile of a body was an input"
+                }
                 Detection::Clustered(_) => "one input for each bright cluster about as wide as a body",
             };
             format!(

@@ -273,8 +273,9 @@ pub fn metrics_of<const D: usize>(scenario: &Scenario) -> Result<Vec<Box<dyn mea
     let mut metrics = Vec::new();
     for (k, id) in scenario.measure.metrics.iter().enumerate() {
         let at = format!("measure.metrics.{k}");
-        let metric = measure::metrics::find::<D>(id)
-            .map_err(|error| Wrong::new(at.clone(), error.to_string(), "not a metric").help("`flockworks metrics` lists them"))?;
+        let metric = measure::metrics::find::<D>(id).map_err(|error| {
+            Wrong::new(at.clone(), error.to_string(), "not a metric").help("`flockworks metrics` lists them")
+        })?;
         if scenario.measure.metrics[..k].contains(id) {
             return Err(Wrong::new(at, format!("`{id}` is measured already"), "given twice"));
         }

@@ -185,11 +185,17 @@ impl Sensing {
             return Some(("first_step", what));
         }
         if laser.last_step - laser.first_step >= laser.steps_per_turn {
-            return Some(("last_step", format!("the rays would go round more than once ({} a turn)", laser.steps_per_turn)));
+            return Some((
+                "last_step",
+                format!("the rays would go round more than once ({} a turn)", laser.steps_per_turn),
+            ));
         }
         if laser.shortest_range >= laser.longest_range {
             let (shortest, longest) = (laser.shortest_range, laser.longest_range);
-            return Some(("shortest_range", format!("the shortest range ({shortest}) must be below the longest ({longest})")));
+            return Some((
+                "shortest_range",
+                format!("the shortest range ({shortest}) must be below the longest ({longest})"),
+            ));
         }
         None
     }
@@ -262,10 +268,10 @@ impl Laser {
             scanner,
             detection,
             association: self.association.map(R::of),
-            errors: self.errors.as_ref().map(|faults| InjectedErrors {
-                miss: R::of(faults.miss),
-                false_inputs: R::of(faults.false_inputs),
-            }),
+            errors: self
+                .errors
+                .as_ref()
+                .map(|faults| InjectedErrors { miss: R::of(faults.miss), false_inputs: R::of(faults.false_inputs) }),
             widest_body: R::ZERO,
         }
     }

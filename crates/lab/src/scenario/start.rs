@@ -146,10 +146,7 @@ impl Start {
         Ok(plan::Start { position, velocity, columns })
     }
 
-    fn positions<R: Real, const D: usize>(
-        &self,
-        around: &Surroundings<'_, R, D>,
-    ) -> Result<Vec<Vector<R, D>>, Wrong> {
+    fn positions<R: Real, const D: usize>(&self, around: &Surroundings<'_, R, D>) -> Result<Vec<Vector<R, D>>, Wrong> {
         let bounds = |low: Vector<R, D>, high: Vector<R, D>| (low, high);
         match &self.place {
             Place::Points(points) => {
@@ -180,7 +177,8 @@ impl Start {
                 for a in 0..D {
                     high.0[a] = around.space.side(a).ok_or_else(|| {
                         let what = format!("\"anywhere\" has no meaning on axis {a}, which is open");
-                        Wrong::new("place", what, "a place in open space").help("use place.box, place.ball or place.lattice")
+                        Wrong::new("place", what, "a place in open space")
+                            .help("use place.box, place.ball or place.lattice")
                     })?;
                 }
                 let (low, high) = bounds(Vector::ZERO, high);
@@ -221,7 +219,8 @@ impl Start {
         let mut attempt = 0;
         while places.len() < around.count {
             if attempt == most {
-                let what = format!("only {} of {} members found a place in {most} attempts", places.len(), around.count);
+                let what =
+                    format!("only {} of {} members found a place in {most} attempts", places.len(), around.count);
                 return Err(Wrong::new(path, what, "too little room").help(
                     "a larger place, a smaller spacing or fewer members leave room; bodies keep clear of walls and obstacles",
                 ));
@@ -311,7 +310,13 @@ fn towards<R: Real, const D: usize>(azimuth: f64, elevation: f64) -> Vector<R, D
     let (up, along) = Real::sin_cos(elevation.to_radians());
     Vector(core::array::from_fn(|a| {
         R::of(match (D, a) {
-            (1, _) => if cos < 0.0 { -1.0 } else { 1.0 },
+            (1, _) => {
+                if cos < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                }
+            }
             (2, 0) => cos,
             (2, _) => sin,
             (_, 0) => along * cos,

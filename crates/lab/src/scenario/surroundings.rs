@@ -94,10 +94,9 @@ impl Obstacle {
             ObstacleShape::Ball(ball) => {
                 Shape::Ball { centre: point(&ball.centre, "ball.centre")?, radius: R::of(ball.radius) }
             }
-            ObstacleShape::Segment(segment) => Shape::Segment {
-                from: point(&segment.from, "segment.from")?,
-                to: point(&segment.to, "segment.to")?,
-            },
+            ObstacleShape::Segment(segment) => {
+                Shape::Segment { from: point(&segment.from, "segment.from")?, to: point(&segment.to, "segment.to")? }
+            }
             ObstacleShape::Polygon(corners) => {
                 let at = |(k, corner): (usize, &Vec<f64>)| point(corner, &format!("polygon.{k}"));
                 Shape::Polygon { vertices: corners.iter().enumerate().map(at).collect::<Result<_, _>>()? }
@@ -105,9 +104,10 @@ impl Obstacle {
             ObstacleShape::Box(region) => {
                 Shape::Cuboid { low: point(&region.low, "box.low")?, high: point(&region.high, "box.high")? }
             }
-            ObstacleShape::Plane(plane) => {
-                Shape::Plane { point: point(&plane.point, "plane.point")?, normal: point(&plane.normal, "plane.normal")? }
-            }
+            ObstacleShape::Plane(plane) => Shape::Plane {
+                point: point(&plane.point, "plane.point")?,
+                normal: point(&plane.normal, "plane.normal")?,
+            },
         };
         let shape = shape.checked().map_err(|error| Wrong::new("shape", error.to_string(), "not a possible shape"))?;
         if let (Some(appears), Some(disappears)) = (self.appears, self.disappears)
@@ -222,7 +222,8 @@ impl Scatter {
             let draw = |axis: usize| R::of(uniform(seed, Purpose::Obstacles, a, axis as u32));
             let centre = Vector(core::array::from_fn(|axis| low[axis] + (high[axis] - low[axis]) * draw(axis)));
             let outside = |&(low, high): &(Vector<R, D>, Vector<R, D>)| {
-                let gap: Vector<R, D> = Vector(core::array::from_fn(|a| (low[a] - centre[a]).most(centre[a] - high[a]).most(R::ZERO)));
+                let gap: Vector<R, D> =
+                    Vector(core::array::from_fn(|a| (low[a] - centre[a]).most(centre[a] - high[a]).most(R::ZERO)));
                 gap.length() >= radius
             };
             if !clear.iter().all(outside) || !apart.admits(centre) {
@@ -339,7 +340,9 @@ impl Food {
                 let place = |item| Vector(core::array::from_fn(|a| sides[a] * R::of(draw(item, a))));
                 (0..count).map(place).collect()
             }
-            (None, None) => return Err(Wrong::new("", "how much food there is is missing", "needs `count` or `places`")),
+            (None, None) => {
+                return Err(Wrong::new("", "how much food there is is missing", "needs `count` or `places`"));
+            }
             (Some(_), Some(_)) => {
                 return Err(Wrong::new("places", "`count` and `places` both say how much", "leave one of them out"));
             }

@@ -27,7 +27,8 @@ impl Folder {
     pub fn claim(path: &Path) -> Result<Self, StoreError> {
         let other = |entry: std::io::Result<std::fs::DirEntry>| entry.is_ok_and(|e| e.file_name() != LOCK);
         if path.exists() && !path.join(MANIFEST).exists() {
-            let mut entries = std::fs::read_dir(path).map_err(|error| StoreError::io("read the folder", path, error))?;
+            let mut entries =
+                std::fs::read_dir(path).map_err(|error| StoreError::io("read the folder", path, error))?;
             if entries.any(other) {
                 return Err(StoreError::Refused(format!(
                     "`{}` holds files that are no run of this program; choose another folder with --out",
@@ -62,7 +63,9 @@ impl Folder {
     pub fn write_manifest(&self, manifest: &Json) -> Result<(), StoreError> {
         let mut text = serde_json::to_string_pretty(manifest).unwrap_or_default();
         text.push('\n');
-        self.write(MANIFEST, |out| out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &self.file(MANIFEST), error)))
+        self.write(MANIFEST, |out| {
+            out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &self.file(MANIFEST), error))
+        })
     }
     /// Writes a file so that it is either whole or as it was before.
     ///

@@ -104,7 +104,11 @@ impl Values {
             Self::Whole(values) => values[row].to_string(),
             Self::Word(values, words) => {
                 let word = words.get(usize::from(values[row])).map_or("", String::as_str);
-                if word.contains([',', '"', '\n', '\r']) { format!("\"{}\"", word.replace('"', "\"\"")) } else { word.to_owned() }
+                if word.contains([',', '"', '\n', '\r']) {
+                    format!("\"{}\"", word.replace('"', "\"\""))
+                } else {
+                    word.to_owned()
+                }
             }
         }
     }
@@ -199,7 +203,8 @@ fn encode(headings: &[Heading], columns: &[Values]) -> Result<Vec<u8>, ParquetEr
                 column.typed::<Int32Type>().write_batch(values, None, None)?;
             }
             Values::Word(values, words) => {
-                let words: Vec<ByteArray> = words.iter().map(|word| ByteArray::from(word.as_bytes().to_vec())).collect();
+                let words: Vec<ByteArray> =
+                    words.iter().map(|word| ByteArray::from(word.as_bytes().to_vec())).collect();
                 let known = |k: &u16| words.get(usize::from(*k)).is_some_and(|word| !word.is_empty());
                 let (there, levels) = present(values, known);
                 let there: Vec<ByteArray> = there.iter().map(|&k| words[usize::from(k)].clone()).collect();
@@ -287,7 +292,8 @@ impl Table {
     pub fn open(path: &std::path::Path) -> Result<Self, StoreError> {
         let file = std::fs::File::open(path).map_err(|error| StoreError::io("open", path, error))?;
         let damaged = |what: String| StoreError::Damaged(format!("`{}`: {what}", path.display()));
-        let reader = SerializedFileReader::new(file).map_err(|error| damaged(format!("not a Parquet table: {error}")))?;
+        let reader =
+            SerializedFileReader::new(file).map_err(|error| damaged(format!("not a Parquet table: {error}")))?;
         let meta = reader.metadata().file_metadata();
         let mut headings = Vec::new();
         for column in meta.schema_descr().columns() {

@@ -179,7 +179,15 @@ impl<R: Scalar, const D: usize> Checkpoint<R, D> {
             && columns.state.len() == like.columns.state.len()
             && clocks.due.len() == like.clocks.due.len()
             && clocks.command.len() == like.clocks.command.len();
-        (same && from.0.is_empty())
-            .then_some(Self { columns, step, time, resources, clocks, memory, met_total, errors })
+        (same && from.0.is_empty()).then_some(Self {
+            columns,
+            step,
+            time,
+            resources,
+            clocks,
+            memory,
+            met_total,
+            errors,
+        })
     }
 }

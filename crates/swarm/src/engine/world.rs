@@ -12,8 +12,8 @@ use crate::selection::{NamedSet, Perception, Reach};
 use crate::sensing::robot::Memory;
 use space::obstacles::Obstacles;
 use space::parallel::Workers;
-use space::spelling::nearest;
 use space::random::{Purpose, Stream as DrawStream, unit_vector};
+use space::spelling::nearest;
 use space::{Column, Columns, Frame, Grid, GroupRange, LiveGrid, PADDING, Real, Space, Vector};
 
 /// Cells pay from this number of agents on.

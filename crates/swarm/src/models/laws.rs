@@ -1,7 +1,7 @@
 //! Laws that hold for every listed model, whatever it says: generated from the list.
 
-use crate::engine::{Checkpoint, 
-    Clock, Driver, GroupPlan, IndexChoice, Order, Phase, Placement, Start, World, WorldError, WorldPlan,
+use crate::engine::{
+    Checkpoint, Clock, Driver, GroupPlan, IndexChoice, Order, Phase, Placement, Start, World, WorldError, WorldPlan,
 };
 use crate::models::{Catalogue, Entry, LIST, Models};
 use crate::motion::Injected;
