@@ -463,9 +463,7 @@ macro_rules! form {
                 $crate::file::Shape::Table { name: stringify!($name), about: concat!($($what),+).trim_ascii(), fields }
             }
             fn write(&self) -> $crate::file::Tree {
-                let mut entries = Vec::new();
-                $(form!(@write self, entries, $field, $default);)*
-                $crate::file::Tree::table(entries)
+                $crate::file::Tree::table([$(form!(@write self, $field, $default)),*].into_iter().flatten())
             }
         }
     };
@@ -503,13 +501,11 @@ macro_rules! form {
     (@default $type:ty, $default:tt) => { None };
     (@required need) => { true };
     (@required $default:tt) => { false };
-    (@write $self:ident, $entries:ident, $field:ident, none) => {
-        if let Some(value) = &$self.$field {
-            $entries.push((stringify!($field).to_owned(), $crate::file::Form::write(value)));
-        }
+    (@write $self:ident, $field:ident, none) => {
+        $self.$field.as_ref().map(|value| (stringify!($field).to_owned(), $crate::file::Form::write(value)))
     };
-    (@write $self:ident, $entries:ident, $field:ident, $default:tt) => {
-        $entries.push((stringify!($field).to_owned(), $crate::file::Form::write(&$self.$field)));
+    (@write $self:ident, $field:ident, $default:tt) => {
+        Some((stringify!($field).to_owned(), $crate::file::Form::write(&$self.$field)))
     };
 }
 
@@ -630,7 +626,7 @@ macro_rules! words {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "tests")]
+#[allow(clippy::unwrap_used, unreachable_pub, reason = "tests; the macros declare public items")]
 mod tests {
     use super::*;
     use crate::file::Sources;

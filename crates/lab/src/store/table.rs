@@ -242,7 +242,7 @@ pub fn join<W: Write + Send>(
     };
     let mut writer = begin().map_err(|error| fault(&error))?;
     for block in blocks {
-        splice(&mut writer, Bytes::from(block?)).map_err(|error| written(error))?;
+        splice(&mut writer, Bytes::from(block?)).map_err(written)?;
     }
     writer.into_inner().map_err(written)
 }
