@@ -3,7 +3,7 @@
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
-use crate::files::{self, CompletionsOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions};
+use crate::files::{self, CompletionsOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions, SchemaOptions};
 use crate::models::{ModelsOptions, models};
 use crate::run::{self, CheckOptions, ReportOptions, RunOptions};
 use crate::step::{StepOptions, step};
@@ -36,8 +36,8 @@ pub enum Command {
     Check(CheckOptions),
     /// Print a commented file to start from.
     New(KindOptions),
-    /// Print the JSON schema of a kind of file, for editors.
-    Schema(KindOptions),
+    /// Print the JSON schema of a kind of file, for editors, or the table of its keys.
+    Schema(SchemaOptions),
     /// Make the page of a complete run anew.
     Report(ReportOptions),
     /// Write the tables of a run in another form.

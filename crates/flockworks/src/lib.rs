@@ -12,6 +12,7 @@ pub mod plain;
 pub mod run;
 pub mod step;
 pub mod table;
+// VIEW
 pub mod workloads;
 
 pub use fault::Fault;

@@ -1,6 +1,8 @@
 //! `lab`: files that say what they are, the run store, executors, reports. It knows nothing of HTTP.
 
 pub mod file;
+pub mod gallery;
+pub mod live;
 pub mod report;
 pub mod run;
 pub mod scenario;
