@@ -12,7 +12,7 @@ pub mod plain;
 pub mod run;
 pub mod step;
 pub mod table;
-// VIEW
+pub mod view;
 pub mod workloads;
 
 pub use fault::Fault;

@@ -23,13 +23,21 @@ pub(super) fn controls(scenario: &Scenario, tree: &Node) -> Json {
             };
             let alias = descriptor.alias.filter(|alias| written.is_some_and(|node| node.get(alias).is_some()));
             let path = format!("{below}.{}", alias.unwrap_or(descriptor.name));
-            list.extend(control(&descriptor, &path, name, &value, &default));
+            let unit = unit_in_files(&descriptor).replace("length", &scenario.units.length).replace("time", &scenario.units.time);
+            list.extend(control(&descriptor, &path, name, &unit, &value, &default));
         }
     }
     Json::Array(list)
 }
 
-fn control(descriptor: &Descriptor, path: &str, group: &str, value: &Value, default: &Value) -> Option<Json> {
+fn control(
+    descriptor: &Descriptor,
+    path: &str,
+    group: &str,
+    unit: &str,
+    value: &Value,
+    default: &Value,
+) -> Option<Json> {
     let single = match &descriptor.takes {
         Kind::PerAgent(one) => one,
         other => other,
@@ -48,7 +56,7 @@ fn control(descriptor: &Descriptor, path: &str, group: &str, value: &Value, defa
         "name": descriptor.name,
         "symbol": descriptor.symbol,
         "about": descriptor.about.trim(),
-        "unit": unit_in_files(descriptor),
+        "unit": if unit == "1" || unit == "-" { "" } else { unit },
         "kind": kind,
         "value": value,
         "words": words,
@@ -61,7 +69,7 @@ fn control(descriptor: &Descriptor, path: &str, group: &str, value: &Value, defa
     };
     if let Some(default) = default {
         let now = value.as_f64().unwrap_or(default);
-        let (low, high) = ends(descriptor.range, default, now, unit_in_files(descriptor) == "deg");
+        let (low, high) = ends(descriptor.range, default, now, unit == "deg");
         control["low"] = json!(low);
         control["high"] = json!(high);
         control["step"] = json!(if kind == "whole" { 1.0 } else { stride(high - low) });
