@@ -224,10 +224,19 @@ fn nonsense_is_answered_and_too_much_is_cut_off() {
     assert_eq!(until(&mut first, "hello")["given"][0]["kind"], "scenario");
     tell(&mut first, &json!({ "do": "open", "given": 0 }));
     until(&mut first, "scene");
-    for nonsense in ["", "{", "[]", "{\"do\":7}", "{\"do\":\"fly\"}", "{\"do\":\"speed\"}", "{\"do\":\"set\",\"path\":\"a\"}",
-        "{\"do\":\"speed\",\"rate\":-5}", "{\"do\":\"seek\",\"frame\":3}", "{\"do\":\"open\",\"gallery\":\"none\"}",
-        "{\"do\":\"set\",\"path\":\"space.dimensions\",\"value\":3}"]
-    {
+    for nonsense in [
+        "",
+        "{",
+        "[]",
+        "{\"do\":7}",
+        "{\"do\":\"fly\"}",
+        "{\"do\":\"speed\"}",
+        "{\"do\":\"set\",\"path\":\"a\"}",
+        "{\"do\":\"speed\",\"rate\":-5}",
+        "{\"do\":\"seek\",\"frame\":3}",
+        "{\"do\":\"open\",\"gallery\":\"none\"}",
+        "{\"do\":\"set\",\"path\":\"space.dimensions\",\"value\":3}",
+    ] {
         say(&mut first, 1, nonsense.as_bytes());
         until(&mut first, "problem");
     }

@@ -37,7 +37,8 @@ mod tests {
     #[test]
     fn every_part_of_the_page_is_here_and_the_whole_is_small() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../web");
-        let there = std::fs::read_dir(folder).map(|entries| entries.flatten().map(|e| e.file_name()).collect::<Vec<_>>());
+        let there =
+            std::fs::read_dir(folder).map(|entries| entries.flatten().map(|e| e.file_name()).collect::<Vec<_>>());
         for name in there.unwrap_or_default() {
             let name = name.to_string_lossy().into_owned();
             let part = name.ends_with(".js") || name.ends_with(".css");

@@ -62,7 +62,11 @@ impl In<'_> {
     }
     fn real<R: Scalar>(&mut self) -> Option<R> {
         // a 32-bit number is widened on the way, which loses nothing
-        if size_of::<R>() == 4 { self.id().map(|bits| R::of(f64::from(f32::from_bits(bits)))) } else { self.number().map(R::of) }
+        if size_of::<R>() == 4 {
+            self.id().map(|bits| R::of(f64::from(f32::from_bits(bits))))
+        } else {
+            self.number().map(R::of)
+        }
     }
     /// A number of things of which each takes at least `bytes` bytes: never more than there can be.
     fn count(&mut self, bytes: usize) -> Option<usize> {
