@@ -156,7 +156,7 @@ fn metrics_json(scenario: &Scenario) -> Json {
         let range = natural.then_some([0.0, 1.0]);
         Some(json!({ "id": card.id, "title": card.title, "unit": unit(card.unit), "range": range }))
     };
-    scenario.measure.metrics.iter().filter_map(card).collect()
+    scenario.metrics().iter().filter_map(card).collect()
 }
 
 /// The binary message of a moment: places and headings in the order of ids, and labels where there are any.

@@ -168,8 +168,8 @@ fn all_metrics(table: &Table, scenario: &crate::scenario::Scenario) -> Result<Js
         table.column(name).ok_or_else(|| StoreError::Damaged(format!("the metrics lack the column `{name}`")))
     };
     let mut wanted = vec![column("t")?, column("group")?];
-    for id in &scenario.measure.metrics {
-        wanted.push(column(id)?);
+    for id in scenario.metrics() {
+        wanted.push(column(&id)?);
     }
     let mut times: Vec<f64> = Vec::new();
     let mut groups: Vec<(String, Vec<Vec<Option<f64>>>)> = Vec::new();
