@@ -207,7 +207,7 @@ impl<R: Real, const D: usize> Layout<R, D> {
 }
 
 /// The sorted index over [`Columns`].
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Grid<R, const D: usize> {
     layout: Layout<R, D>,
     /// First row of each cell, and the number of agents at the end.
@@ -516,7 +516,7 @@ impl<R: Real, const D: usize> Grid<R, D> {
 
 /// Cells that follow agents moving one at a time. Rows stay where they are; inside a cell they stand in
 /// ascending order, so that neighbours are met in the same canonical order as in [`Grid`] when rows are ids.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct LiveGrid<R, const D: usize> {
     layout: Layout<R, D>,
     reach: R,

@@ -166,6 +166,15 @@ impl<R: Real, const D: usize> Vector<R, D> {
         let axis = Self::axis(least);
         (axis - self * self.0[least]).unit()
     }
+    /// The angle between two vectors, in [0, pi]; 0 where one of them is zero.
+    pub fn angle_to(self, other: Self) -> R {
+        let (a, b) = (self.unit(), other.unit());
+        if a.is_tiny() || b.is_tiny() {
+            return R::ZERO;
+        }
+        let along = a.dot(b);
+        (b - a * along).length().atan2(along)
+    }
     /// `self` and `other` as a rotation by `angle` in their plane: `self` turned by `angle` towards
     /// the unit vector `side`, which is perpendicular to it.
     #[inline(always)]

@@ -158,8 +158,9 @@ pub struct Me<'a, R, const D: usize> {
     pub own: &'a mut [R],
     /// The rest of the world.
     pub around: Around<'a, R, D>,
-    /// Receives the named components of the motion computation, when somebody looks.
-    pub notes: Option<&'a mut Vec<(&'static str, Vector<R, D>)>>,
+    /// Receives what the law says of its computation, when somebody looks. A step has none in it, so that what is said
+    /// there costs nothing.
+    pub trace: Option<&'a mut Trace<R, D>>,
 }
 
 impl<R: Real, const D: usize> Me<'_, R, D> {
@@ -173,12 +174,105 @@ impl<R: Real, const D: usize> Me<'_, R, D> {
     pub fn member(&self) -> usize {
         (self.id - self.around.group.0) as usize
     }
-    /// Notes a component of the motion computation for the viewer.
+    /// Tells a component of the motion computation: a vector that the law sums, or chooses among others.
     #[inline(always)]
     pub fn note(&mut self, name: &'static str, component: Vector<R, D>) {
-        if let Some(notes) = &mut self.notes {
-            notes.push((name, component));
+        if let Some(trace) = &mut self.trace {
+            trace.components.push((name, component));
         }
+    }
+    /// Tells the unit of the components.
+    #[inline(always)]
+    pub fn unit(&mut self, unit: &'static str) {
+        if let Some(trace) = &mut self.trace {
+            trace.unit = unit;
+        }
+    }
+    /// Tells the vector that the components add up to.
+    #[inline(always)]
+    pub fn sum(&mut self, sum: Vector<R, D>) {
+        if let Some(trace) = &mut self.trace {
+            trace.sum = Some(sum);
+        }
+    }
+    /// Tells a number that the computation uses, with its unit.
+    #[inline(always)]
+    pub fn value(&mut self, name: &'static str, value: R, unit: &'static str) {
+        if let Some(trace) = &mut self.trace {
+            trace.values.push((name, value, unit));
+        }
+    }
+    /// Tells the angle from one direction to another, rad.
+    #[inline(always)]
+    pub fn turn(&mut self, name: &'static str, from: Vector<R, D>, to: Vector<R, D>) {
+        if let Some(trace) = &mut self.trace {
+            trace.values.push((name, from.angle_to(to), "rad"));
+        }
+    }
+    /// Tells the length of a vector, with its unit.
+    #[inline(always)]
+    pub fn length(&mut self, name: &'static str, vector: Vector<R, D>, unit: &'static str) {
+        if let Some(trace) = &mut self.trace {
+            trace.values.push((name, vector.length(), unit));
+        }
+    }
+    /// Tells a behaviour that the law could have chosen, its probability in this state, and whether it was chosen.
+    #[inline(always)]
+    pub fn choice(&mut self, name: &'static str, probability: f64, chosen: bool) {
+        if let Some(trace) = &mut self.trace {
+            trace.choice.push(Choice { name, probability, chosen });
+        }
+    }
+    /// Tells the behaviours among which the law chooses without a draw, and which of them it takes.
+    #[inline(always)]
+    pub fn either<const N: usize>(&mut self, names: [&'static str; N], chosen: usize) {
+        if let Some(trace) = &mut self.trace {
+            trace.choice.extend(names.into_iter().enumerate().map(|(k, name)| {
+                let chosen = k == chosen;
+                Choice { name, probability: f64::from(u8::from(chosen)), chosen }
+            }));
+        }
+    }
+    /// Tells which named sets decide about the motion. A law that does not tell is decided by all that have members.
+    #[inline(always)]
+    pub fn acts(&mut self, sets: &[usize]) {
+        if let Some(trace) = &mut self.trace {
+            trace.acts = Some(sets.iter().fold(0, |bits, &set| bits | 1 << set));
+        }
+    }
+}
+
+/// A behaviour among which a law chooses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// Its name.
+    pub name: &'static str,
+    /// Its probability, before the draw.
+    pub probability: f64,
+    /// Whether it was chosen.
+    pub chosen: bool,
+}
+
+/// What a law says of one decision. Laws write it through [`Me`].
+#[derive(Clone, Debug)]
+pub struct Trace<R, const D: usize> {
+    /// Named vectors of the computation.
+    pub components: Vec<(&'static str, Vector<R, D>)>,
+    /// Their unit.
+    pub unit: &'static str,
+    /// What the components add up to, where the law is their sum.
+    pub sum: Option<Vector<R, D>>,
+    /// Named numbers with their units.
+    pub values: Vec<(&'static str, R, &'static str)>,
+    /// Behaviours among which the law chose.
+    pub choice: Vec<Choice>,
+    /// Bit `s` is set where named set `s` decides; `None`: all that have members.
+    pub acts: Option<u32>,
+}
+
+impl<R, const D: usize> Default for Trace<R, D> {
+    fn default() -> Self {
+        Self { components: Vec::new(), unit: "1", sum: None, values: Vec::new(), choice: Vec::new(), acts: None }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::motion::{
     Around, Draws, Injected, LaneSums, MOST_OWN, Me, MeLanes, Model, Motion, NearItem, NearObstacle, Other, Percepts,
-    Start, Stream, Summed, WIDEST, splat,
+    Start, Stream, Summed, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::Mobility;
@@ -124,15 +124,14 @@ pub(crate) struct Scratch<R, const D: usize> {
     chosen: Vec<bool>,
     order: Vec<u32>,
     selection: selection::Scratch<R, D>,
-    obstacles: Vec<NearObstacle<R, D>>,
-    sensed: Columns<R, D>,
+    pub(crate) obstacles: Vec<NearObstacle<R, D>>,
+    pub(crate) sensed: Columns<R, D>,
     /// The law's declared columns of the deciding agent: before, and after deciding.
     pub(crate) own: Vec<R>,
     /// Columns of its body.
     pub(crate) body: Vec<R>,
     pub(crate) robot: RobotScratch<R>,
     segments: Vec<Segment<R, D>>,
-    pub(crate) notes: Option<Vec<(&'static str, Vector<R, D>)>>,
 }
 
 impl<R: Scalar, const D: usize> Scratch<R, D> {
@@ -152,7 +151,6 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             body: Vec::new(),
             robot: RobotScratch::default(),
             segments: Vec::new(),
-            notes: None,
         }
     }
     /// Makes room for so many more, and for a full vector of lanes after them.
@@ -202,6 +200,10 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
     }
     fn at(&self, k: usize) -> Vector<R, D> {
         Vector(core::array::from_fn(|a| self.offset[a][k]))
+    }
+    /// The detected members of the last decision: row in what it read of others, displacement, named sets as bits.
+    pub(crate) fn detected(&self) -> impl Iterator<Item = (usize, Vector<R, D>, u32)> + '_ {
+        (0..self.found).map(|k| (self.row[k] as usize, self.at(k), self.sets[k]))
     }
 }
 
@@ -294,6 +296,15 @@ pub(crate) trait Kernel<R: Scalar, const D: usize>: Send + Sync {
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
     ) -> Motion<R, D>;
+    /// As [`Self::one`], by the same code over lists, with everything that the law says of its computation.
+    fn explained(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+        trace: &mut Trace<R, D>,
+    ) -> Motion<R, D>;
     /// Tells the law that a body moves otherwise than wanted.
     fn performed(&self, _own: &mut [R], _velocity: Vector<R, D>) {}
     /// Number of others in any named set of one member, for statistics.
@@ -320,24 +331,40 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         if !matches!(self.mobility, Mobility::Ideal) {
             motion = self.mobility.perform(velocity, motion, dt, body);
         }
-        let n = &self.noise;
-        if n.execution_direction > R::ZERO || n.execution_speed > R::ZERO {
-            let draws = DrawStream::new(view.seed, Purpose::Execution, view.step, view.now.id[row]);
-            motion = turned(motion, n.execution_direction * R::of(draws.normal(0)), &draws, 4);
-            let faster = (R::ONE + n.execution_speed * R::of(draws.normal(2))).most(R::ZERO);
+        if let Some((draws, aside, faster)) = self.execution_error(view, row) {
+            motion = turned(motion, aside, &draws, 4);
             motion = Motion { velocity: motion.velocity * faster, displacement: motion.displacement * faster };
         }
         let place = view.space.place(position + motion.displacement);
         // a motion that is not a number of finite size is not made
         if place.finite() && motion.velocity.finite() { (place, motion.velocity) } else { (position, velocity) }
     }
+    /// Errors of execution, where there are any: their draws, the angle (rad), and the factor of the speed.
     #[inline(always)]
-    fn wanted(&self, view: &View<'_, R, D>, row: usize, motion: Motion<R, D>) -> Motion<R, D> {
+    pub(crate) fn execution_error(&self, view: &View<'_, R, D>, row: usize) -> Option<(DrawStream, R, R)> {
+        let n = &self.noise;
+        if n.execution_direction > R::ZERO || n.execution_speed > R::ZERO {
+            let draws = DrawStream::new(view.seed, Purpose::Execution, view.step, view.now.id[row]);
+            let faster = (R::ONE + n.execution_speed * R::of(draws.normal(2))).most(R::ZERO);
+            return Some((draws, n.execution_direction * R::of(draws.normal(0)), faster));
+        }
+        None
+    }
+    /// The error of computation, where there is one: its draws, and the angle (rad).
+    #[inline(always)]
+    pub(crate) fn computation_error(&self, view: &View<'_, R, D>, row: usize) -> Option<(DrawStream, R)> {
         if self.noise.computation > R::ZERO {
             let draws = DrawStream::new(view.seed, Purpose::Computation, view.step, view.now.id[row]);
-            return turned(motion, self.noise.computation * R::of(draws.normal(0)), &draws, 2);
+            return Some((draws, self.noise.computation * R::of(draws.normal(0))));
         }
-        motion
+        None
+    }
+    #[inline(always)]
+    fn wanted(&self, view: &View<'_, R, D>, row: usize, motion: Motion<R, D>) -> Motion<R, D> {
+        match self.computation_error(view, row) {
+            Some((draws, aside)) => turned(motion, aside, &draws, 2),
+            None => motion,
+        }
     }
     /// Loads an agent's columns into the scratch.
     #[inline(always)]
@@ -778,6 +805,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         matches!(&self.stages.sensing, Sensing::Scanner(robot) if robot.association.is_some())
     }
 
+    /// One decision. `trace` is given by explanations alone; a step is compiled without it.
     #[inline(always)]
     fn decide(
         &self,
@@ -785,6 +813,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         row: usize,
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
+        trace: Option<&mut Trace<R, D>>,
     ) -> Motion<R, D> {
         let stages = &self.stages;
         let indirect = stages.detect(view, row, scratch, memory);
@@ -821,7 +850,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             heading: view.now.velocity(row).unit(),
             own: &mut scratch.own,
             around: stages.around(view, row, position, &obstacles),
-            notes: scratch.notes.as_mut(),
+            trace,
         };
         let motion = self.law.decide(&mut me, &seen, &draws);
         scratch.obstacles = obstacles;
@@ -852,7 +881,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             } else {
                 None
             };
-            let wanted = self.decide(view, row, scratch, memory);
+            let wanted = self.decide(view, row, scratch, memory, None);
             let mut body = core::mem::take(&mut scratch.body);
             let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &mut body);
             if !self.stages.plain && velocity != wanted.velocity {
@@ -916,7 +945,19 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
     ) -> Motion<R, D> {
-        self.decide(view, row, scratch, memory)
+        self.decide(view, row, scratch, memory, None)
+    }
+    #[cold]
+    #[inline(never)]
+    fn explained(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+        trace: &mut Trace<R, D>,
+    ) -> Motion<R, D> {
+        self.decide(view, row, scratch, memory, Some(trace))
     }
     fn performed(&self, own: &mut [R], velocity: Vector<R, D>) {
         self.law.performed(own, velocity);
@@ -1176,7 +1217,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             },
             own: &mut scratch.own,
             around: stages.around(view, row, position, &scratch.obstacles),
-            notes: scratch.notes.as_mut(),
+            trace: None,
         };
         let motion = self.law().finish(&mut me, sums, &draws);
         stages.wanted(view, row, motion)
@@ -1236,6 +1277,16 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Kernel<R, D> for Streamed<M, R,
             }
             _ => self.listed.one(view, row, scratch, memory),
         }
+    }
+    fn explained(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+        trace: &mut Trace<R, D>,
+    ) -> Motion<R, D> {
+        self.listed.explained(view, row, scratch, memory, trace)
     }
     fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
         self.listed.neighbours(view, row, scratch)

@@ -1,6 +1,6 @@
 //! The step: who acts when. Synchronous, sequential and asynchronous drivers share the same decisions.
 
-use crate::engine::kernel::{Index, Writer};
+use crate::engine::kernel::{Scratch, Writer};
 use crate::engine::plan::{Clock, Driver, Order};
 use crate::engine::world::World;
 use crate::motion::Motion;
@@ -78,51 +78,26 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.settle();
     }
 
+    /// Who acts after whom in this step.
+    pub(crate) fn sequence(&mut self, order: Order) -> Vec<u32> {
+        // always from the order of ids, so that a step does not depend on the one before
+        let mut sequence = core::mem::take(&mut self.order);
+        sequence.clear();
+        sequence.extend(0..self.now.len() as u32);
+        if order == Order::Random {
+            with_lanes(level(), Shuffle { order: &mut sequence, seed: self.seed, step: self.step });
+        }
+        sequence
+    }
+
     /// One after the other; each reads the newest state and writes its own at once.
     fn step_sequential(&mut self, order: Order) {
         self.obstacles.advance(self.time);
-        let agents = self.now.len();
-        // always from the order of ids, so that a step does not depend on the one before
-        self.order.clear();
-        self.order.extend(0..agents as u32);
-        if order == Order::Random {
-            with_lanes(level(), Shuffle { order: &mut self.order, seed: self.seed, step: self.step });
-        }
         let Some(mut scratch) = self.scratch.pop() else { return };
-        let sequence = core::mem::take(&mut self.order);
+        let sequence = self.sequence(order);
         self.met.fill(Met::Nothing);
         for &id in &sequence {
-            let row = id as usize;
-            let g = self.group_of(id);
-            let view = self.view();
-            let group = &self.groups[g];
-            if view.mortality.is_some_and(|c| self.now.state[c][row] <= R::ZERO) {
-                continue;
-            }
-            let mut memory = self.memory.get(row).cloned();
-            let wanted = group.kernel.one(&view, row, &mut scratch, memory.as_mut());
-            let stages = group.kernel.stages();
-            let (place, velocity) = stages.perform(&view, row, wanted, self.dt, &mut scratch.body);
-            if velocity != wanted.velocity {
-                group.kernel.performed(&mut scratch.own, velocity);
-            }
-            for (&c, &value) in stages.columns.iter().zip(&scratch.own) {
-                self.now.state[c][row] = value;
-            }
-            let stages = self.groups[g].kernel.stages();
-            for (&c, &value) in stages.body_columns.iter().zip(&scratch.body) {
-                self.now.state[c][row] = value;
-            }
-            if let Some(memory) = memory {
-                self.memory[row] = memory;
-            }
-            let (place, velocity) =
-                if self.contacts { self.resolve_one(row, place, velocity) } else { (place, velocity) };
-            self.now.set_position(row, place);
-            self.now.set_velocity(row, velocity);
-            if let Some(live) = &mut self.live {
-                live.follow(row, place);
-            }
+            self.take_turn(id, &mut scratch);
         }
         self.order = sequence;
         self.scratch.push(scratch);
@@ -134,10 +109,43 @@ impl<R: Scalar, const D: usize> World<R, D> {
         }
     }
 
-    /// Each on its own clock; physics moves everyone in every tick.
-    fn step_asynchronous(&mut self, tick: f64, period: f64, clock: Clock, delay: f64) {
-        self.obstacles.advance(self.time);
-        let agents = self.now.len();
+    /// The turn of one agent in a sequential step.
+    #[inline(always)]
+    pub(crate) fn take_turn(&mut self, id: u32, scratch: &mut Scratch<R, D>) {
+        let row = id as usize;
+        let g = self.group_of(id);
+        let view = self.view();
+        let group = &self.groups[g];
+        if view.mortality.is_some_and(|c| self.now.state[c][row] <= R::ZERO) {
+            return;
+        }
+        let mut memory = self.memory.get(row).cloned();
+        let wanted = group.kernel.one(&view, row, scratch, memory.as_mut());
+        let stages = group.kernel.stages();
+        let (place, velocity) = stages.perform(&view, row, wanted, self.dt, &mut scratch.body);
+        if velocity != wanted.velocity {
+            group.kernel.performed(&mut scratch.own, velocity);
+        }
+        for (&c, &value) in stages.columns.iter().zip(&scratch.own) {
+            self.now.state[c][row] = value;
+        }
+        let stages = self.groups[g].kernel.stages();
+        for (&c, &value) in stages.body_columns.iter().zip(&scratch.body) {
+            self.now.state[c][row] = value;
+        }
+        if let Some(memory) = memory {
+            self.memory[row] = memory;
+        }
+        let (place, velocity) = if self.contacts { self.resolve_one(row, place, velocity) } else { (place, velocity) };
+        self.now.set_position(row, place);
+        self.now.set_velocity(row, velocity);
+        if let Some(live) = &mut self.live {
+            live.follow(row, place);
+        }
+    }
+
+    /// Keeps the present frame for as long as readings are stale; how many frames that is.
+    pub(crate) fn keep_history(&mut self, tick: f64, delay: f64) -> usize {
         let stale = (delay / tick).round() as usize;
         if stale > 0 {
             self.clocks.history.push_back(self.now.clone());
@@ -145,6 +153,14 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 self.clocks.history.pop_front();
             }
         }
+        stale
+    }
+
+    /// Each on its own clock; physics moves everyone in every tick.
+    fn step_asynchronous(&mut self, tick: f64, period: f64, clock: Clock, delay: f64) {
+        self.obstacles.advance(self.time);
+        let agents = self.now.len();
+        let stale = self.keep_history(tick, delay);
         let Some(mut scratch) = self.scratch.pop() else { return };
         let mut clocks = core::mem::replace(
             &mut self.clocks,
@@ -169,14 +185,8 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 self.next.set_velocity(row, self.now.velocity(row));
                 continue;
             }
-            // half a tick of tolerance: sums of ticks are not exact
-            if clocks.due[row] <= self.time + 0.5 * tick {
-                if let Some(old) = clocks.history.front()
-                    && stale > 0
-                {
-                    view.others = old;
-                    view.index = Index::Pairs;
-                }
+            if clocks.is_due(row, self.time, tick) {
+                clocks.age(&mut view, stale);
                 let mut memory = self.memory.get(row).cloned();
                 let wanted = group.kernel.one(&view, row, &mut scratch, memory.as_mut());
                 clocks.command[row] =

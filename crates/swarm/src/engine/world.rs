@@ -45,6 +45,23 @@ pub(crate) struct Clocks<R, const D: usize> {
     pub(crate) history: std::collections::VecDeque<Columns<R, D>>,
 }
 
+impl<R: Scalar, const D: usize> Clocks<R, D> {
+    /// Whether an agent decides in the tick that begins at `time`.
+    pub(crate) fn is_due(&self, id: usize, time: f64, tick: f64) -> bool {
+        // half a tick of tolerance: sums of ticks are not exact
+        self.due[id] <= time + 0.5 * tick
+    }
+    /// Lets a view read others as they were, where readings are `stale` frames old.
+    pub(crate) fn age<'a>(&'a self, view: &mut View<'a, R, D>, stale: usize) {
+        if let Some(old) = self.history.front()
+            && stale > 0
+        {
+            view.others = old;
+            view.index = Index::Pairs;
+        }
+    }
+}
+
 /// A world that can be stepped.
 pub struct World<R: Scalar, const D: usize> {
     pub(crate) space: Space<R, D>,
@@ -275,7 +292,8 @@ where
             now: Columns::new(agents, declared.len()),
             next: Columns::new(agents, declared.len()),
             heading: core::array::from_fn(|_| Vec::new()),
-            headings,
+            // one after the other, headings would be out of date as soon as somebody has turned
+            headings: headings && !sequential,
             reach,
             grid: None,
             live: None,

@@ -138,9 +138,13 @@ impl<R: Scalar> Stream<R, 2> for AbmFlocking<R> {
     ) -> Motion<R, 2> {
         let number = number[0].most(R::ONE);
         let (gather, align) = (Vector(*displacement) / number, Vector(*velocities) * self.alignment / number);
+        let sum = me.velocity + gather + align;
+        me.unit("length/time");
+        me.note("own velocity", me.velocity);
         me.note("cohesion and separation", gather);
         me.note("alignment", align);
-        let heading = (me.velocity + gather + align).unit_or(me.heading());
+        me.sum(sum);
+        let heading = sum.unit_or(me.heading());
         Motion::new_velocity(heading * self.speed, self.time_step)
     }
 }

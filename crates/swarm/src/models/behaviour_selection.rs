@@ -538,6 +538,49 @@ impl<R: Scalar> BehaviourSelection<R> {
         sum
     }
 
+    /// Tells what the behaviours would have wanted, and how one of them was chosen.
+    #[cold]
+    fn tell(
+        &self,
+        me: &mut Me<'_, R, 3>,
+        seen: &Percepts<'_, R, 3>,
+        sight: &impl Sight,
+        counts: [u32; 3],
+        from_obstacles: Vector<R, 3>,
+        behaviour: Behaviour,
+        drawn: Option<(f64, f64)>,
+    ) {
+        let mut avoidance = Vector::ZERO;
+        for k in (0..seen.len()).filter(|&k| inside(sight, k, AVOIDANCE)) {
+            avoidance -= Directions::of(seen, k);
+        }
+        me.note("obstacles", from_obstacles);
+        me.note("avoidance", avoidance);
+        let headings = self.sum_of_nearest::<Velocities>(seen, sight, ALIGNMENT, counts[ALIGNMENT]) / self.speed;
+        me.note("alignment", headings);
+        me.note("attraction", self.sum_of_nearest::<Directions>(seen, sight, ATTRACTION, counts[ATTRACTION]));
+        let names = ["avoid", "align", "attract", "search", "average"];
+        let chosen = behaviour as usize;
+        for (k, name) in names.into_iter().enumerate() {
+            let probability = match (drawn, k) {
+                (Some((_, align)), 1) => align,
+                (Some((_, align)), 2) => 1.0 - align,
+                _ => f64::from(u8::from(k == chosen)),
+            };
+            me.choice(name, probability, k == chosen);
+        }
+        if let Some((drawn, _)) = drawn {
+            me.value("drawn number", R::of(drawn), "1");
+        }
+        me.acts(match behaviour {
+            Behaviour::Avoid => &[AVOIDANCE],
+            Behaviour::Align => &[ALIGNMENT],
+            Behaviour::Attract => &[ATTRACTION],
+            Behaviour::Average => &[ALIGNMENT, ATTRACTION],
+            Behaviour::Search => &[],
+        });
+    }
+
     #[inline(always)]
     fn decided(
         &self,
@@ -561,15 +604,19 @@ impl<R: Scalar> BehaviourSelection<R> {
                 obstacles += 1;
             }
         }
+        let from_obstacles = away;
         let b = self.is_b(me, draws);
+        let mut drawn = None;
         let behaviour = match (counts[AVOIDANCE] + obstacles, counts[ALIGNMENT], counts[ATTRACTION]) {
             (0, 0, 0) => Behaviour::Search,
             (0, _, 0) => Behaviour::Align,
             (0, 0, _) => Behaviour::Attract,
             (0, ..) if self.variant == Variant::Control => Behaviour::Average,
             (0, aligning, _) => {
-                let drawn = draws.number::<f64>("choice", 1.0, |s| s.uniform(0));
-                if drawn < self.probability(b, aligning) { Behaviour::Align } else { Behaviour::Attract }
+                let choice = draws.number::<f64>("choice", 1.0, |s| s.uniform(0));
+                let probability = self.probability(b, aligning);
+                drawn = Some((choice, probability));
+                if choice < probability { Behaviour::Align } else { Behaviour::Attract }
             }
             _ => Behaviour::Avoid,
         };
@@ -610,7 +657,16 @@ impl<R: Scalar> BehaviourSelection<R> {
             turn = (azimuth - theta).wrapped().clamped(-limits[0], limits[0]);
             rise = (elevation - phi).clamped(-limits[1], limits[1]);
         }
-        me.note("wanted direction", wanted);
+        if me.trace.is_some() {
+            self.tell(me, seen, sight, counts, from_obstacles, behaviour, drawn);
+            me.note("wanted direction", wanted);
+            for (name, angle) in [("turn", turn), ("rise", rise)] {
+                me.value(name, angle, "rad");
+            }
+            for (name, limit) in ["turn allowed", "rise allowed"].into_iter().zip(limits) {
+                me.value(name, limit, "rad");
+            }
+        }
         let (theta, phi) = ((theta + turn).wrapped(), (phi + rise).clamped(-R::PI * R::HALF, R::PI * R::HALF));
         (me.own[THETA], me.own[PHI], me.own[KIND]) = (theta, phi, R::of(f64::from(u8::from(b))));
         let count = |count: u32| R::of(f64::from(count));

@@ -157,10 +157,13 @@ impl<R: Scalar, const D: usize> Stream<R, D> for BoidsRuleVectors<R> {
         let avoid = share(avoid, divisor) * self.avoidance_weight;
         let matching = share(Vector(*matching), *count) * self.matching_weight;
         let centre = share(Vector(*centre), *count) * self.centring_weight;
+        let acceleration = avoid + matching + centre;
+        me.unit("length/time^2");
         me.note("collision avoidance", avoid);
         me.note("velocity matching", matching);
         me.note("flock centring", centre);
-        let velocity = (me.velocity + (avoid + matching + centre) * self.time_step).clip(self.maximum_speed);
+        me.sum(acceleration);
+        let velocity = (me.velocity + acceleration * self.time_step).clip(self.maximum_speed);
         Motion::new_velocity(velocity, self.time_step)
     }
 }

@@ -117,9 +117,12 @@ impl<R: Scalar, const D: usize> Stream<R, D> for BoidsUnitHeading<R> {
         if number[0] > R::ZERO {
             let gather = Vector(*displacement) / number[0];
             let align = (Vector(*headings) / number[0] - heading) * self.alignment;
+            let sum = heading + gather + align;
+            me.note("own heading", heading);
             me.note("cohesion and separation", gather);
             me.note("alignment", align);
-            wanted = (heading + gather + align).unit();
+            me.sum(sum);
+            wanted = sum.unit();
             if wanted.is_tiny() {
                 wanted = heading;
             }

@@ -322,6 +322,17 @@ impl<R: Scalar> Stream<R, 2> for CompetingFlocks<R> {
             me.note("flock avoidance", avoidance);
             force += avoidance;
         }
+        me.unit("length/time^2");
+        me.sum(force);
+        me.value("flock mates", numbers[0], "1");
+        me.value("members of other flocks", numbers[1], "1");
+        me.length("deceleration by drag", me.velocity * self.drag, "length/time^2");
+        me.acts(match numbers.map(|number| number > R::ZERO) {
+            [true, true] => &[0, 1],
+            [true, false] => &[0],
+            [false, true] => &[1],
+            [false, false] => &[],
+        });
         if self.safeguards && !force.finite() {
             force = Vector::ZERO;
         }

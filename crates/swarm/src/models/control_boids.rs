@@ -207,7 +207,9 @@ impl<R: Scalar> Stream<R, 2> for ControlBoids<R> {
         let mut own = heading;
         let eta = self.wander_deviation.to_f64();
         if eta > 0.0 || draws.injected.is_some() {
-            own = own.turned_by(draws.number("wander", 0.0, |s| eta * s.normal(0)), R::ZERO);
+            let wander = draws.number("wander", 0.0, |s| eta * s.normal(0));
+            me.value("wander", wander, "rad");
+            own = own.turned_by(wander, R::ZERO);
         }
         let social = (number[0] / self.saturation).least(R::ONE);
         let parts = [
@@ -217,10 +219,15 @@ impl<R: Scalar> Stream<R, 2> for ControlBoids<R> {
             ("walls", walls * self.wall_weight),
         ];
         let mut wanted = own * self.heading_weight;
+        me.note("own heading", wanted);
         for (name, part) in parts {
             me.note(name, part);
             wanted += part;
         }
+        me.sum(wanted);
+        me.value("saturation of alignment and cohesion", social, "1");
+        me.turn("turn asked for", heading, wanted);
+        me.value("turn allowed", self.largest_turn, "rad");
         let turned = heading.turned_toward(wanted.unit(), self.largest_turn);
         let displacement = turned * self.step_length;
         Motion { velocity: displacement / self.time_step, displacement }

@@ -154,6 +154,18 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Couzin2002<R> {
         me.note("repulsion", -Vector(*repulsion));
         me.note("orientation", orientation);
         me.note("attraction", attraction);
+        let filled = counts.map(|count| count > R::ZERO);
+        me.either(
+            ["repulsion", "orientation and attraction", "orientation", "attraction", "none"],
+            match filled {
+                [true, ..] => 0,
+                [_, true, true] => 1,
+                [_, true, _] => 2,
+                [_, _, true] => 3,
+                _ => 4,
+            },
+        );
+        me.acts(if filled[0] { &[0] } else { &[1, 2] });
         let mut wanted = if counts[0] > R::ZERO {
             -Vector(*repulsion)
         } else if counts[1] > R::ZERO && counts[2] > R::ZERO {
@@ -170,9 +182,13 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Couzin2002<R> {
             let noise = draws.number("noise", 0.0, |s| sigma * s.normal(0));
             let axis =
                 if D == 3 { draws.number("axis_angle", 0.0, |s| s.uniform(2) * R::TAU.to_f64()) } else { R::ZERO };
+            me.value("noise", noise, "rad");
             wanted = wanted.turned_by(noise, axis);
         }
-        let turned = heading.turned_toward(wanted, self.turning_rate.radians() * self.time_step);
+        let limit = self.turning_rate.radians() * self.time_step;
+        me.turn("turn asked for", heading, wanted);
+        me.value("turn allowed", limit, "rad");
+        let turned = heading.turned_toward(wanted, limit);
         Motion::new_velocity(turned * self.speed, self.time_step)
     }
 }

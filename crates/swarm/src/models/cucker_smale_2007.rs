@@ -81,7 +81,9 @@ impl<R: Scalar, const D: usize> Model<R, D> for CuckerSmale2007<R> {
         if self.normalise {
             consensus = consensus / members;
         }
+        me.unit("length/time^2");
         me.note("consensus", consensus);
+        me.sum(consensus);
         Motion::old_velocity(me.velocity, me.velocity + consensus * self.time_step, self.time_step)
     }
 }

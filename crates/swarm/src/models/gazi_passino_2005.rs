@@ -80,7 +80,9 @@ impl<R: Scalar> Model<R, 1> for GaziPassino2005<R> {
     }
     fn decide(&self, me: &mut Me<'_, R, 1>, seen: &Percepts<'_, R, 1>, draws: &Draws<'_>) -> Motion<R, 1> {
         let (first, count) = me.around.group;
+        me.unit("length");
         if me.id == first {
+            me.note("the first stays", Vector::ZERO);
             return Motion::step(Vector::ZERO);
         }
         // everything below is relative to my own place
@@ -92,14 +94,22 @@ impl<R: Scalar> Model<R, 1> for GaziPassino2005<R> {
         };
         let left = sensed("left", me.id - 1);
         let lower = truly(me.id - 1) + self.least_spacing;
-        let step = if me.id - first + 1 < count {
+        let (parts, free, step) = if me.id - first + 1 < count {
             let right = sensed("right", me.id + 1);
             let upper = truly(me.id + 1) - self.least_spacing;
-            (self.gain * ((left + right) * R::HALF)).least(upper).most(lower)
+            let free = self.gain * ((left + right) * R::HALF);
+            let share = |to: R| self.gain * to * R::HALF;
+            ([("left", share(left)), ("right", share(right))], free, free.least(upper).most(lower))
         } else {
-            (self.gain * (left + self.comfort_distance)).most(lower)
+            let free = self.gain * (left + self.comfort_distance);
+            let parts = [("left", self.gain * left), ("comfort distance", self.gain * self.comfort_distance)];
+            (parts, free, free.most(lower))
         };
-        me.note("step", Vector([step]));
+        for (name, part) in parts {
+            me.note(name, Vector([part]));
+        }
+        me.note("bounds", Vector([step - free]));
+        me.sum(Vector([step]));
         Motion::step(Vector([step]))
     }
 }

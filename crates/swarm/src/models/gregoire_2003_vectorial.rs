@@ -157,7 +157,10 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Gregoire2003Vectorial<R> {
         draws: &Draws<'_>,
     ) -> Motion<R, D> {
         let mut wanted = -Vector(*hard_core);
-        if counts[1] > R::ZERO {
+        let touching = counts[1] > R::ZERO;
+        me.value("neighbours in the hard core", counts[1], "1");
+        me.either(["hard core", "alignment and cohesion"], usize::from(!touching));
+        if touching {
             me.note("hard core", wanted);
         } else {
             let alignment = (me.velocity + Vector(*velocities)) * self.alignment_weight;
@@ -167,9 +170,12 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Gregoire2003Vectorial<R> {
             wanted = alignment + cohesion;
             if self.noise_amplitude > R::ZERO {
                 let unit: Vector<R, D> = draws.vector("unit", |s| s.unit(0));
-                wanted += unit * ((counts[0] + R::ONE) * self.noise_amplitude);
+                let noise = unit * ((counts[0] + R::ONE) * self.noise_amplitude);
+                me.note("noise", noise);
+                wanted += noise;
             }
         }
+        me.sum(wanted);
         wanted = wanted.unit();
         if wanted.is_tiny() {
             wanted = me.heading();

@@ -99,6 +99,15 @@ impl<R: Scalar> Law<R> for Gueron1996<R> {
     }
 }
 
+/// What a member can do, by number.
+const CASES: [&str; 6] = ["turn away", "stop", "slow down", "speed up", "approach", "walk on"];
+const TURN_AWAY: usize = 0;
+const STOP: usize = 1;
+const SLOW_DOWN: usize = 2;
+const SPEED_UP: usize = 3;
+const APPROACH: usize = 4;
+const WALK_ON: usize = 5;
+
 /// Who stands in a box about the body, by sector.
 #[derive(Clone, Copy, Default)]
 struct Sectors {
@@ -160,27 +169,31 @@ impl<R: Scalar> Model<R, 2> for Gueron1996<R> {
             }
         }
         let own = self.walking_speed.of(me.member()).copied().unwrap_or(R::ZERO);
-        let (turned, speed) = if let Some(s) = stress {
+        let (case, turned, speed) = if let Some(s) = stress {
             match (s.left_front || s.left_back, s.right_front || s.right_back) {
-                (true, false) => ((theta - quarter).wrapped(), own),
-                (false, true) => ((theta + quarter).wrapped(), own),
-                _ if s.left_front && s.right_front => (theta, R::ZERO),
-                _ if s.front => (theta, own / self.speed_factor),
+                (true, false) => (TURN_AWAY, (theta - quarter).wrapped(), own),
+                (false, true) => (TURN_AWAY, (theta + quarter).wrapped(), own),
+                _ if s.left_front && s.right_front => (STOP, theta, R::ZERO),
+                _ if s.front => (SLOW_DOWN, theta, own / self.speed_factor),
                 _ if s.left_back && s.right_back && !(s.left_front || s.right_front) => {
-                    (theta, own * self.speed_factor)
+                    (SPEED_UP, theta, own * self.speed_factor)
                 }
-                _ => (theta, own),
+                _ => (WALK_ON, theta, own),
             }
         } else if outer && !before {
-            (theta, own / self.speed_factor)
+            (SLOW_DOWN, theta, own / self.speed_factor)
         } else if outer && !neutral {
-            me.note("attraction", towards);
-            (if towards.is_tiny() { theta } else { towards.angle() }, own * self.speed_factor)
+            (APPROACH, if towards.is_tiny() { theta } else { towards.angle() }, own * self.speed_factor)
         } else {
-            (theta, own)
+            (WALK_ON, theta, own)
         };
         me.own[0] = turned;
-        Motion::new_velocity(Vector::at_angle(turned) * speed, self.time_step)
+        let velocity = Vector::at_angle(turned) * speed;
+        me.unit("length/time");
+        me.note(CASES[case], velocity);
+        me.sum(velocity);
+        me.either(CASES, case);
+        Motion::new_velocity(velocity, self.time_step)
     }
 }
 

@@ -99,16 +99,28 @@ impl<R: Scalar> Model<R, 2> for HaExtended<R> {
                     None if far => (SNN, seen.direction(first) * self.step_length),
                     None => (SNN, Vector::ZERO),
                     Some(line) if far => {
-                        let way_point = seen.offset(first) + line * self.repulsion_distance;
-                        me.note("way-point", way_point);
+                        let along = line * self.repulsion_distance;
+                        let way_point = seen.offset(first) + along;
+                        me.note("first input", seen.offset(first));
+                        me.note("beside it", along);
+                        me.sum(way_point);
                         (HA, way_point.unit() * self.step_length)
                     }
-                    Some(line) => (HA_PERP, line.left() * (side::<R>(draws) * self.step_length)),
+                    Some(line) => {
+                        let side = side::<R>(draws);
+                        me.value("side", side, "1");
+                        (HA_PERP, line.left() * (side * self.step_length))
+                    }
                 }
             }
         };
         me.own[0] = R::count(mode);
-        me.note("step", step);
+        me.unit("length");
+        if mode != HA {
+            me.note(["previous step", "towards the first input", "", "aside"][mode], step);
+            me.sum(step);
+        }
+        me.either(["KEEP", "SNN", "HA", "HA_PERP"], mode);
         Motion::step(step)
     }
 }

@@ -104,7 +104,13 @@ impl<R: Scalar> Model<R, 1> for Hamilton1d<R> {
             (_, Some(b)) => b + self.gap_fraction * right,
             _ => R::ZERO,
         };
+        me.unit("length");
         me.note("jump", Vector([jump]));
+        me.sum(Vector([jump]));
+        for (name, gap) in [("own gap", own), ("gap on the left", left), ("gap on the right", right)] {
+            me.value(name, gap, "length");
+        }
+        me.either(["stay", "jump left", "jump right"], if jump < R::ZERO { 1 } else { usize::from(jump > R::ZERO) * 2 });
         Motion::step(Vector([jump]))
     }
 }

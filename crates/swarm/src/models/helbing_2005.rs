@@ -175,12 +175,15 @@ impl<R: Scalar> Model<R, 2> for Helbing2005<R> {
         if self.noise_deviation > R::ZERO || draws.injected.is_some() {
             let noise: Vector<R, 2> =
                 draws.vector("noise_vec", |s| Vector([0, 2].map(|slot| self.noise_deviation * R::of(s.normal(slot)))));
+            me.note("noise", noise);
             force += noise;
         }
+        me.unit("length/time^2");
         me.note("desired velocity", drive);
         me.note("members", members);
         me.note("walls", walls);
         me.note("attraction", attraction);
+        me.sum(force);
         let velocity = (me.velocity + force * self.time_step).clip(self.speed_limit_factor * desired_speed);
         Motion::new_velocity(velocity, self.time_step)
     }

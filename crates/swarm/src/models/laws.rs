@@ -77,6 +77,8 @@ macro_rules! for_all {
     };
 }
 
+mod explained;
+
 #[test]
 fn ids_are_file_names_and_cards_are_full() {
     for entry in LIST {

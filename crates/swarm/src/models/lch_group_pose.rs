@@ -132,6 +132,9 @@ impl<R: Scalar, const D: usize> Model<R, D> for LchGroupPose<R> {
         let size = largest_component(seen, linked, |k| sum += seen.offset(k));
         let step = if size > 0 {
             let middle = sum / R::count(size);
+            me.unit("length");
+            me.value("members of the largest component", R::count(size), "1");
+            me.sum(middle);
             me.note("middle of the largest component", middle);
             middle.unit() * self.step_length
         } else {

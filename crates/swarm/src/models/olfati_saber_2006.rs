@@ -203,11 +203,13 @@ impl<R: Scalar, const D: usize> Model<R, D> for OlfatiSaber2006<R> {
         if let Some(wanted) = self.target_velocity.of(me.member()) {
             pursuit += (wanted - velocity) * self.target_velocity_gain;
         }
+        me.unit("length/time^2");
         me.note("lattice", lattice);
         me.note("consensus", consensus);
         me.note("obstacles", avoidance);
         me.note("target", pursuit);
         let acceleration = lattice + consensus + avoidance + pursuit;
+        me.sum(acceleration);
         Motion::new_velocity(velocity + acceleration * self.time_step, self.time_step)
     }
 }

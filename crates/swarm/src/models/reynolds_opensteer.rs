@@ -190,10 +190,14 @@ impl<R: Scalar, const D: usize> Stream<R, D> for ReynoldsOpensteer<R> {
         let separation = mean(separation, counts[0]).unit() * self.separation_weight;
         let alignment = turn.unit() * self.alignment_weight;
         let cohesion = mean(cohesion, counts[2]).unit() * self.cohesion_weight;
+        let force = separation + alignment + cohesion;
+        me.unit("force");
         me.note("separation", separation);
         me.note("alignment", alignment);
         me.note("cohesion", cohesion);
-        let force = (separation + alignment + cohesion).clip(self.maximum_force);
+        me.sum(force);
+        let force = force.clip(self.maximum_force);
+        me.length("force after the cap", force, "force");
         let velocity = (me.velocity + force * (self.time_step / self.mass)).clip(self.maximum_speed);
         Motion::new_velocity(velocity, self.time_step)
     }

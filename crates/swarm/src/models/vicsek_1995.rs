@@ -119,13 +119,17 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Vicsek1995<R> {
     #[inline(always)]
     fn finish(&self, me: &mut Me<'_, R, D>, headings: &[R; D], draws: &Draws<'_>) -> Motion<R, D> {
         let own = me.heading();
+        let sum = own + Vector(*headings);
+        me.note("own heading", own);
         me.note("neighbours", Vector(*headings));
-        let mut wanted = (own + Vector(*headings)).unit_or(own);
+        me.sum(sum);
+        let mut wanted = sum.unit_or(own);
         let eta = self.noise_amplitude.to_f64();
         if eta > 0.0 || draws.injected.is_some() {
             let noise = draws.number("noise", 0.0, |s| eta * (s.uniform(0) - 0.5));
             let axis =
                 if D == 3 { draws.number("axis_angle", 0.0, |s| s.uniform(1) * R::TAU.to_f64()) } else { R::ZERO };
+            me.value("noise", noise, "rad");
             wanted = wanted.turned_by(noise, axis);
         }
         let velocity = wanted * self.speed;

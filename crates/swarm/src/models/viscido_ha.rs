@@ -84,6 +84,9 @@ pub(super) fn side<R: Scalar>(draws: &Draws<'_>) -> R {
     draws.number("sign", 1.0, |s| if s.uniform(0) < 0.5 { -1.0 } else { 1.0 })
 }
 
+/// What a member can do: step to the way-point, aside, or not at all.
+const ZONES: [&str; 3] = ["approach", "aside", "stay"];
+
 impl<R: Scalar> Model<R, 2> for ViscidoHa<R> {
     fn sets(&self) -> Vec<NamedSet<R, 2>> {
         vec![NamedSet::new("neighbours", Perception::All)]
@@ -91,14 +94,27 @@ impl<R: Scalar> Model<R, 2> for ViscidoHa<R> {
     fn decide(&self, me: &mut Me<'_, R, 2>, seen: &Percepts<'_, R, 2>, draws: &Draws<'_>) -> Motion<R, 2> {
         let nearest = seen.nearest(0);
         let pair = nearest.and_then(|k| Some((k, to_second(seen, me.around.space, k, -R::ONE)?.unit())));
-        let Some((k, line)) = pair else { return Motion::step(Vector::ZERO) };
-        let step = if seen.distance(k) > self.repulsion_distance {
-            let way_point = seen.offset(k) + line * self.repulsion_distance;
-            me.note("way-point", way_point);
+        me.unit("length");
+        let Some((k, line)) = pair else {
+            me.note("stay", Vector::ZERO);
+            me.either(ZONES, 2);
+            return Motion::step(Vector::ZERO);
+        };
+        let far = seen.distance(k) > self.repulsion_distance;
+        me.either(ZONES, usize::from(!far));
+        let step = if far {
+            let along = line * self.repulsion_distance;
+            let way_point = seen.offset(k) + along;
+            me.note("nearest", seen.offset(k));
+            me.note("beside it", along);
+            me.sum(way_point);
             way_point.unit() * self.step_length
         } else {
-            let aside = line.left() * (side::<R>(draws) * self.step_length);
+            let side = side::<R>(draws);
+            let aside = line.left() * (side * self.step_length);
             me.note("aside", aside);
+            me.sum(aside);
+            me.value("side", side, "1");
             aside
         };
         Motion::step(step)

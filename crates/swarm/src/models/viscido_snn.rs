@@ -62,11 +62,14 @@ impl<R: Scalar, const D: usize> Model<R, D> for ViscidoSnn<R> {
         vec![NamedSet::new("neighbours", Perception::Nearest)]
     }
     fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, _: &Draws<'_>) -> Motion<R, D> {
-        let step = match seen.nearest(0) {
-            Some(k) if seen.distance(k) > self.repulsion_distance => seen.direction(k) * self.step_length,
-            _ => Vector::ZERO,
+        let (far, step) = match seen.nearest(0) {
+            Some(k) if seen.distance(k) > self.repulsion_distance => (true, seen.direction(k) * self.step_length),
+            _ => (false, Vector::ZERO),
         };
+        me.unit("length");
         me.note("nearest", step);
+        me.sum(step);
+        me.either(["approach", "stay"], usize::from(!far));
         Motion::step(step)
     }
 }

@@ -3,10 +3,13 @@
 //! A perception function takes a candidate set and returns a subset of it; the agent itself is never in it.
 //! A model's named sets are perception functions over the detected members, and a scenario may put others in their place.
 
+mod words;
+
 use crate::motion::in_view;
 use crate::parameters::Scalar;
 use crate::sensing::cos_half;
 use space::{Columns, Real, Vector, voronoi};
+pub use words::Shell;
 
 /// The eight perception functions and their combinations.
 #[derive(Clone, Debug, PartialEq)]
