@@ -397,12 +397,14 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
         let frame = Frame { columns, declared: &self.declared, groups: &self.groups, space: &self.space, time, step };
         let lives = |row: &usize| self.mortality.is_none_or(|c| columns.state[c][*row] > R::ZERO);
         let whole = self.groups.len();
+        // groups own consecutive ids
+        let by_id = frame.rows_by_id();
         let rows_of = |group: usize| -> Vec<usize> {
-            let inside = |row: &usize| {
-                let range = self.groups.get(group);
-                range.is_none_or(|range| columns.id[*row].checked_sub(range.first).is_some_and(|k| k < range.count))
+            let ids = match self.groups.get(group) {
+                Some(range) => range.first as usize..(range.first + range.count) as usize,
+                None => 0..by_id.len(),
             };
-            (0..columns.len()).filter(|row| inside(row) && lives(row)).collect()
+            by_id[ids].iter().copied().filter(lives).collect()
         };
         let parts = if whole > 1 { whole + 1 } else { whole };
         for part in 0..parts {
