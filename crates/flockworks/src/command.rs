@@ -3,10 +3,11 @@
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
-use crate::files::{self, CompletionsOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions};
+use crate::files::{self, CompletionsOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions, SchemaOptions};
 use crate::models::{ModelsOptions, models};
 use crate::run::{self, CheckOptions, ReportOptions, RunOptions};
 use crate::step::{StepOptions, step};
+use crate::view::{ViewOptions, view};
 use clap::{Parser, Subcommand};
 use std::io::Write;
 
@@ -32,12 +33,14 @@ pub struct Line {
 pub enum Command {
     /// Run a file: results, tables and a page in a folder. The same command again continues where it stopped.
     Run(RunOptions),
+    /// Look at a world while it runs and change it, or at runs that were recorded: a page on this machine alone.
+    View(ViewOptions),
     /// Check files and run nothing: everything that is wrong, at its place.
     Check(CheckOptions),
     /// Print a commented file to start from.
     New(KindOptions),
-    /// Print the JSON schema of a kind of file, for editors.
-    Schema(KindOptions),
+    /// Print the JSON schema of a kind of file, for editors, or the table of its keys.
+    Schema(SchemaOptions),
     /// Make the page of a complete run anew.
     Report(ReportOptions),
     /// Write the tables of a run in another form.
@@ -79,6 +82,7 @@ pub enum Command {
 pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
     match &line.command {
         Command::Run(options) => run::run(options, out),
+        Command::View(options) => view(options, out).map(|()| 0),
         Command::Check(options) => run::check(options, out).map(|()| 0),
         Command::New(options) => files::new(options, out).map(|()| 0),
         Command::Schema(options) => files::schema(options, out).map(|()| 0),

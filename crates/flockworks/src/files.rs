@@ -15,11 +15,39 @@ use std::path::PathBuf;
 /// Kinds of files that can be run.
 const KINDS: [&str; 1] = ["scenario"];
 
-/// Options of `new` and `schema`.
+/// Options of `new`.
 #[derive(Args, Debug)]
 pub struct KindOptions {
     /// Kind of file: scenario.
     pub kind: String,
+}
+
+/// Form of a schema.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SchemaForm {
+    /// JSON schema.
+    Json,
+    /// Markdown, to read.
+    Md,
+}
+
+/// Options of `schema`.
+#[derive(Args, Debug)]
+pub struct SchemaOptions {
+    /// Kind of file: scenario.
+    pub kind: String,
+    /// Form of the output.
+    #[arg(long, value_enum, default_value = "json")]
+    pub format: SchemaForm,
+}
+
+/// Form of a list of metrics.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MetricsForm {
+    /// For reading in a terminal.
+    Text,
+    /// Markdown.
+    Md,
 }
 
 /// Options of `metrics`.
@@ -27,6 +55,9 @@ pub struct KindOptions {
 pub struct MetricsOptions {
     /// A metric's id, for all there is to know about it; without it, a table of all metrics.
     pub id: Option<String>,
+    /// Form of the output.
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: MetricsForm,
 }
 
 /// A form in which tables can be had.
@@ -80,12 +111,20 @@ pub fn new(options: &KindOptions, out: &mut dyn Write) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Prints the JSON schema of a kind of file.
+/// Prints the schema of a kind of file.
 ///
 /// # Errors
 /// An unknown kind, or a reader that went away.
-pub fn schema(options: &KindOptions, out: &mut dyn Write) -> Result<(), Fault> {
+pub fn schema(options: &SchemaOptions, out: &mut dyn Write) -> Result<(), Fault> {
     known(&options.kind)?;
+    if options.format == SchemaForm::Md {
+        let lead = "Every key of a scenario file, TOML. A choice is a table with one of its keys, as in \
+                    `driver.sequential = { order = \"random\" }`; where nothing more must be said its name in quotes \
+                    is enough, as in `driver = \"synchronous\"`. Angles are in degrees.";
+        let page = lab::file::reference::reference::<Scenario>("Scenario files", lead);
+        out.write_all(page.as_bytes())?;
+        return Ok(());
+    }
     let schema = lab::file::schema::schema::<Scenario>("flockworks scenario");
     writeln!(out, "{}", serde_json::to_string_pretty(&schema).unwrap_or_default())?;
     Ok(())
@@ -104,6 +143,13 @@ pub fn metrics(options: &MetricsOptions, out: &mut dyn Write) -> Result<(), Faul
             let first = card.definition.lines().next().unwrap_or("").to_owned();
             table.row(vec![card.id.into(), card.title.into(), card.unit.into(), dimensions.join(", "), first]);
         }
+        if options.format == MetricsForm::Md {
+            writeln!(out, "{}", table.markdown())?;
+            for card in list {
+                writeln!(out, "{}", metric(card, options.format))?;
+            }
+            return Ok(());
+        }
         writeln!(out, "{}\n{} metrics; `flockworks metrics ID` shows one.", table.text(), list.len())?;
         writeln!(out, "Shares of the named states of a model, and contacts, are measured by themselves.")?;
         return Ok(());
@@ -112,32 +158,42 @@ pub fn metrics(options: &MetricsOptions, out: &mut dyn Write) -> Result<(), Faul
         let ids: Vec<&str> = list.iter().map(|card| card.id).collect();
         return wrong(format!("unknown metric `{id}`{}", hint(id, &ids)));
     };
-    writeln!(out, "{}: {}\n", card.id, card.title)?;
-    writeln!(out, "Definition\n  {} = {}", card.symbol, card.definition.replace('\n', "\n  "))?;
-    writeln!(out, "Unit\n  {}", card.unit)?;
-    writeln!(out, "Source\n  {}", card.source)?;
-    writeln!(
-        out,
-        "Members counted\n  {}",
-        match card.counted {
-            measure::Counted::Positions => "those with a position",
-            measure::Counted::Velocities => "those with a position and a velocity",
-            measure::Counted::Headings => "those with a heading, that is with a speed above 1e-12",
-        }
-    )?;
-    let edge = &card.edge;
-    writeln!(
-        out,
-        "Where there is little to measure\n  no members: {}; one: {}; all at rest: {}",
-        edge.empty, edge.one, edge.at_rest
-    )?;
-    if !card.parameters.is_empty() {
-        writeln!(out, "Parameters")?;
-        for p in card.parameters {
-            writeln!(out, "  {} = {} {}: {}", p.name, p.default, p.unit, p.about)?;
-        }
-    }
+    write!(out, "{}", metric(card, options.format))?;
     Ok(())
+}
+
+/// All there is to know about a metric.
+fn metric(card: &measure::MetricCard, form: MetricsForm) -> String {
+    let counted = match card.counted {
+        measure::Counted::Positions => "those with a position",
+        measure::Counted::Velocities => "those with a position and a velocity",
+        measure::Counted::Headings => "those with a heading, that is with a speed above 1e-12",
+    };
+    let edge = &card.edge;
+    let mut rows = vec![
+        ("Definition", format!("{} = {}", card.symbol, card.definition.replace('\n', " "))),
+        ("Unit", card.unit.to_owned()),
+        ("Source", card.source.to_owned()),
+        ("Members counted", counted.to_owned()),
+        (
+            "Where there is little to measure",
+            format!("no members: {}; one: {}; all at rest: {}", edge.empty, edge.one, edge.at_rest),
+        ),
+    ];
+    for p in card.parameters {
+        rows.push(("Parameter", format!("{} = {} {}: {}", p.name, p.default, p.unit, p.about)));
+    }
+    let mut text = match form {
+        MetricsForm::Text => format!("{}: {}\n", card.id, card.title),
+        MetricsForm::Md => format!("## {}\n\n{}\n\n", card.id, card.title),
+    };
+    for (name, value) in rows {
+        text += &match form {
+            MetricsForm::Text => format!("\n{name}\n  {value}\n"),
+            MetricsForm::Md => format!("- {name}: {value}\n"),
+        };
+    }
+    text
 }
 
 /// Writes the tables of a run in another form.

@@ -12,6 +12,7 @@ pub mod plain;
 pub mod run;
 pub mod step;
 pub mod table;
+pub mod view;
 pub mod workloads;
 
 pub use fault::Fault;

@@ -110,7 +110,19 @@ pub fn after(case: &Case, steps: u64, precision: Precision, threads: usize) -> R
     }
 }
 
-/// Prints a state as JSON, a line for each agent; every number reads back exactly.
+/// A value as JSON; numbers that are not whole have 17 significant digits, so that every one reads back exactly.
+fn written(value: &Json) -> String {
+    match value {
+        Json::Array(list) => format!("[{}]", list.iter().map(written).collect::<Vec<_>>().join(",")),
+        Json::Number(number) if number.is_f64() => match number.as_f64() {
+            Some(number) => format!("{number:.16e}"),
+            None => number.to_string(),
+        },
+        other => other.to_string(),
+    }
+}
+
+/// Prints a state as JSON, a line for each agent.
 fn print(state: &Map<String, Json>, out: &mut dyn Write) -> Result<(), Fault> {
     let mut text = String::from("{");
     for (k, (key, values)) in state.iter().enumerate() {
@@ -118,10 +130,10 @@ fn print(state: &Map<String, Json>, out: &mut dyn Write) -> Result<(), Fault> {
         text += &format!("  {}: ", Json::from(key.as_str()));
         match values.as_array() {
             Some(list) if list.first().is_some_and(Json::is_array) => {
-                let lines: Vec<String> = list.iter().map(|entry| format!("    {entry}")).collect();
+                let lines: Vec<String> = list.iter().map(|entry| format!("    {}", written(entry))).collect();
                 text += &format!("[\n{}\n  ]", lines.join(",\n"));
             }
-            _ => text += &values.to_string(),
+            _ => text += &written(values),
         }
     }
     text += "\n}\n";

@@ -2,6 +2,8 @@
 
 pub mod explain;
 pub mod file;
+pub mod gallery;
+pub mod live;
 pub mod report;
 pub mod run;
 pub mod scenario;

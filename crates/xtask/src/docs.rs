@@ -1,4 +1,5 @@
-//! `cargo xtask docs`: a page for each model and an index of them, from what the code says of itself.
+//! `cargo xtask docs`: a page for each model and an index of them, the keys of files, the metrics: from what the code says
+//! of itself.
 
 use crate::failure::Failure;
 use crate::list::List;
@@ -6,7 +7,9 @@ use crate::workspace::{Workspace, not_run};
 
 const FOLDER: &str = "docs/models";
 const INDEX: &str = "docs/models/README.md";
-const NOTE: &str = "<!-- Written by `cargo xtask docs` from the code; edit the model's file instead. -->\n\n";
+const SCENARIO: &str = "docs/reference/scenario.md";
+const METRICS: &str = "docs/reference/metrics.md";
+const NOTE: &str = "<!-- Written by `cargo xtask docs` from the code; edit that instead. -->\n\n";
 
 /// Writes the pages; removes those of models that are gone.
 pub(crate) fn write(workspace: &Workspace) -> Result<(), Failure> {
@@ -23,7 +26,7 @@ pub(crate) fn write(workspace: &Workspace) -> Result<(), Failure> {
         std::fs::remove_file(workspace.path(file))
             .map_err(|error| Failure::Tool(format!("cannot remove {file}: {error}")))?;
     }
-    say!("{FOLDER}: {} pages, {changed} written, {} removed", pages.len(), left.len());
+    say!("docs: {} pages, {changed} written, {} removed", pages.len(), left.len());
     Ok(())
 }
 
@@ -34,7 +37,7 @@ pub(crate) fn compare(workspace: &Workspace) -> Result<(), Failure> {
     let mut files: Vec<String> = pages.iter().filter(differs).map(|(file, _)| file.clone()).collect();
     files.extend(leftovers(workspace, &pages)?);
     if files.is_empty() {
-        say!("{FOLDER}: {} pages, up to date", pages.len());
+        say!("docs: {} pages, up to date", pages.len());
         return Ok(());
     }
     Err(Failure::No(format!(
@@ -54,6 +57,10 @@ fn pages(workspace: &Workspace) -> Result<Vec<(String, String)>, Failure> {
     let table = flockworks(workspace, &["models", "--format", "md"])?;
     let index = index(&ids, &table);
     pages.push((INDEX.to_owned(), index));
+    let keys = flockworks(workspace, &["schema", "scenario", "--format", "md"])?;
+    pages.push((SCENARIO.to_owned(), format!("{NOTE}{keys}")));
+    let metrics = flockworks(workspace, &["metrics", "--format", "md"])?;
+    pages.push((METRICS.to_owned(), format!("{NOTE}# The metrics\n\n{metrics}")));
     Ok(pages)
 }
 

@@ -3,6 +3,7 @@
 //! A form is declared once; reading, checking, the JSON schema, the commented starting file and the reference page come
 //! from the declaration. Reading goes on after a problem, so that all problems of a file are shown at once.
 
+pub mod edit;
 pub mod form;
 
 pub mod reference;

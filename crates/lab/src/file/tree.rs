@@ -135,6 +135,11 @@ impl Node {
         if first.is_empty() {
             return Err(format!("a part of the path is empty before `{path}`"));
         }
+        if rest.is_some() && self.tree == Tree::Text(first.to_owned()) {
+            // a choice may be written as a word, which stands for a table with that key
+            let node = Node { tree: Tree::Table(Vec::new()), span: self.span.clone() };
+            self.tree = Tree::Table(vec![Entry { key: first.to_owned(), span: self.span.clone(), node }]);
+        }
         match &mut self.tree {
             Tree::Table(entries) => {
                 let at = match entries.iter().position(|e| e.key == first) {

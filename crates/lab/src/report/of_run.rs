@@ -162,8 +162,9 @@ impl Measured {
                 .find(|(state, labels)| labels.first().is_some_and(|label| tables::share_name(state, label) == *name))
             {
                 for group in 0..self.groups.len() {
-                    let known = self.values[group][column].iter().any(|value| value.is_finite());
-                    if !known {
+                    // one state that never changes is no figure
+                    let seen = |k: usize| self.values[group][column + k].iter().any(|&share| share > 0.0);
+                    if (0..labels.len()).filter(|&k| seen(k)).count() < 2 {
                         continue;
                     }
                     let line = |(k, label): (usize, &&str)| self.line(group, column + k, (*label).to_owned());
@@ -235,15 +236,29 @@ fn summary(scenario: &Scenario, schedule: &Schedule, seed: u64, measured: &Measu
         let Some(card) = measure::metrics::LIST.iter().find(|card| card.id == name) else { continue };
         let Some(value) = measured.groups.get(last).and_then(|_| measured.late(last, column)) else { continue };
         let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-        facts.push(fact(&format!("{}, mean of the last quarter", card.title), format!("{}{unit}", short(value))));
+        facts.push(fact(&format!("{} (mean, last quarter)", card.title), format!("{}{unit}", short(value))));
     }
     facts
+}
+
+/// 2nd, 3rd, 4th, ...
+fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1, n) if n != 11 => "st",
+        (2, n) if n != 12 => "nd",
+        (3, n) if n != 13 => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
 }
 
 /// Four digits that count.
 pub(crate) fn short(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
+    }
+    if value.abs() < 1e-4 {
+        return format!("{value:.3e}");
     }
     let digits = (3 - value.abs().log10().floor() as i32).clamp(0, 9) as usize;
     let text = format!("{value:.digits$}");
@@ -453,7 +468,7 @@ impl Motion {
     }
     fn drawn(&self) -> String {
         if self.some {
-            format!(" Every {}th of {} agents is drawn.", self.agents.div_ceil(DRAWN), self.agents)
+            format!(" Every {} of {} agents is drawn.", ordinal(self.agents.div_ceil(DRAWN)), self.agents)
         } else {
             String::new()
         }
@@ -502,7 +517,7 @@ impl Motion {
         let most = (REPLAYED / self.group.len()).clamp(2, REPLAYED_FRAMES);
         let every = frames.div_ceil(most).max(1);
         let chosen: Vec<usize> = (0..frames).step_by(every).collect();
-        let thinned = if every > 1 { format!(" Every {every}th kept frame is shown.") } else { String::new() };
+        let thinned = if every > 1 { format!(" Every {} kept frame is shown.", ordinal(every)) } else { String::new() };
         Some(Figure::Replay(Replay {
             title: "Replay".into(),
             about: format!("The run as it was.{thinned}{}", self.drawn()),

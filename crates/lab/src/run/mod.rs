@@ -44,10 +44,12 @@ pub(crate) mod kind {
 
 /// Updates of agents between two full states: what a processor does in about 100 ms.
 const BLOCK_UPDATES: u64 = 200_000;
-/// Rows of the trajectory in a block.
-const BLOCK_ROWS: u64 = 131_072;
-/// Least steps in a block where frames do not set a bound.
-const BLOCK_STEPS: u64 = 10;
+/// Least steps in a block: a full state costs about as much to keep as a step of a large swarm to make.
+const BLOCK_STEPS: u64 = 20;
+/// About so many bytes an agent has in a full state.
+const STATE_BYTES: u64 = 64;
+/// Bytes of full states that a long run may write: it has fewer then, and may lose more when it is stopped.
+const GROWN_STATES: u64 = 256 << 20;
 /// Bytes of full states that are kept of a complete run; beyond it every second one is left out, again and again.
 const KEPT_STATES: u64 = 64 << 20;
 
@@ -262,12 +264,12 @@ fn build_id() -> String {
     format!("{:016x}", twox_hash::XxHash64::oneshot(0, &bytes))
 }
 
-/// Steps in a block.
-fn block_steps(agents: u64, schedule: &Schedule, trajectory: bool) -> u64 {
+/// Steps between two full states. It follows from the scenario alone, so that a run that was stopped has them at the same
+/// steps.
+fn block_steps(agents: u64, schedule: &Schedule) -> u64 {
     let agents = agents.max(1);
-    let by_rows = schedule.record * (BLOCK_ROWS / agents).max(1);
-    let least = if trajectory { schedule.record } else { BLOCK_STEPS };
-    (BLOCK_UPDATES / agents).min(by_rows).max(least).max(1)
+    let by_bytes = schedule.steps.saturating_mul(agents) / (GROWN_STATES / STATE_BYTES);
+    (BLOCK_UPDATES / agents).max(BLOCK_STEPS).max(by_bytes)
 }
 
 /// Steps the world from where it is to the end, or to where it is stopped; where it began, and how far it came.
@@ -319,16 +321,15 @@ where
     };
     watch.begin(folder.path(), seed, from, schedule.steps);
     let agents = world.frame().columns.len() as u64;
-    let block = block_steps(agents, schedule, scenario.record.trajectory);
+    let block = block_steps(agents, schedule);
     let metrics = crate::scenario::metrics_of::<D>(scenario).map_err(|wrong| StoreError::Refused(wrong.what))?;
     let recorder = Recorder::start(&world, scenario, metrics, log);
     let mut observer = recorder::Observer::new(&world, carried);
     let sent = 'steps: loop {
         let step = world.step_number();
         if step > from && step.is_multiple_of(block) {
-            let mut state = observer.carried.to_bytes();
-            state.extend(world.save().to_bytes());
-            if !recorder.send(Message::Keyframe(state)) {
+            let state = Message::Keyframe(observer.carried.clone(), Box::new(world.save()));
+            if !recorder.send(state) {
                 break 'steps false;
             }
         }

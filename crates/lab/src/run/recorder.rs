@@ -15,12 +15,16 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use swarm::World;
+use swarm::engine::Checkpoint;
 use swarm::models::{Catalogue, Models};
 use swarm::parameters::Scalar;
 use swarm::physics::{Contact, Met};
 
 /// Frames that may wait for the recorder: enough to even out its work, few enough to bound memory.
 const WAITING: usize = 3;
+
+/// Rows of the trajectory that wait at most before they are written.
+const BLOCK_ROWS: usize = 131_072;
 
 /// Something that happened: step, time, number of its name, agent, other.
 pub(super) type Event = (u64, f64, u16, i64, i64);
@@ -39,8 +43,8 @@ pub(super) enum Message<R, const D: usize> {
     },
     /// What happened in a step.
     Events(Vec<Event>),
-    /// The full state: the block before it is complete.
-    Keyframe(Vec<u8>),
+    /// The full state, and what is carried beside it: the block before it is complete.
+    Keyframe(Carried, Box<Checkpoint<R, D>>),
     /// The run is complete.
     Done,
 }
@@ -56,7 +60,7 @@ impl Carried {
     pub(super) fn new(groups: usize) -> Self {
         Self { contacts: vec![[0; 3]; groups] }
     }
-    pub(super) fn to_bytes(&self) -> Vec<u8> {
+    fn to_bytes(&self) -> Vec<u8> {
         self.contacts.iter().flatten().flat_map(|count| count.to_le_bytes()).collect()
     }
     /// What [`Self::to_bytes`] wrote before other bytes, and those.
@@ -282,6 +286,10 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
                 Message::Sample { columns, step, time, frame, measured } => {
                     if let Some(number) = frame {
                         self.keep_frame(&columns, number, time);
+                        if self.frames.columns[0].len() >= BLOCK_ROWS {
+                            let block = self.frames.take(&self.tables.frames)?;
+                            block.map(|block| self.log.append(kind::FRAMES, &block)).transpose()?;
+                        }
                     }
                     if let Some(contacts) = measured {
                         self.measure(&columns, step, time, &contacts);
@@ -297,9 +305,11 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
                         self.events.whole(5, other);
                     }
                 }
-                Message::Keyframe(state) => {
+                Message::Keyframe(carried, state) => {
                     self.flush()?;
-                    self.log.append(kind::KEYFRAME, &state)?;
+                    let mut bytes = carried.to_bytes();
+                    bytes.extend(state.to_bytes());
+                    self.log.append(kind::KEYFRAME, &bytes)?;
                 }
                 Message::Done => {
                     self.flush()?;
@@ -387,12 +397,14 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
         let frame = Frame { columns, declared: &self.declared, groups: &self.groups, space: &self.space, time, step };
         let lives = |row: &usize| self.mortality.is_none_or(|c| columns.state[c][*row] > R::ZERO);
         let whole = self.groups.len();
+        // groups own consecutive ids
+        let by_id = frame.rows_by_id();
         let rows_of = |group: usize| -> Vec<usize> {
-            let inside = |row: &usize| {
-                let range = self.groups.get(group);
-                range.is_none_or(|range| columns.id[*row].checked_sub(range.first).is_some_and(|k| k < range.count))
+            let ids = match self.groups.get(group) {
+                Some(range) => range.first as usize..(range.first + range.count) as usize,
+                None => 0..by_id.len(),
             };
-            (0..columns.len()).filter(|row| inside(row) && lives(row)).collect()
+            by_id[ids].iter().copied().filter(lives).collect()
         };
         let parts = if whole > 1 { whole + 1 } else { whole };
         for part in 0..parts {

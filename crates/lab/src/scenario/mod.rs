@@ -205,8 +205,9 @@ impl Default for Record {
 form! {
     /// What is measured.
     pub struct Measure {
-        /// Metrics by their ids, as `flockworks metrics` lists them.
-        metrics: Vec<String> = [MEASURED.map(str::to_owned).to_vec()], "", Any;
+        /// Metrics by their ids, as `flockworks metrics` lists them. Left out: polarisation, angular_momentum,
+        /// nearest_neighbour_distance, mean_speed, group_count and largest_group_share, where they are defined.
+        metrics: Option<Vec<String>> = none, "", Any;
         /// Time between two measurements; a multiple of the step. Left out: as the frames that are kept.
         interval: Option<f64> = none, "time", Positive;
         /// Parameters of metrics, by name: each holds for every metric that has it.
@@ -216,7 +217,19 @@ form! {
 
 impl Default for Measure {
     fn default() -> Self {
-        Self { metrics: MEASURED.map(str::to_owned).to_vec(), interval: None, parameters: Named::default() }
+        Self { metrics: None, interval: None, parameters: Named::default() }
+    }
+}
+
+impl Scenario {
+    /// Ids of the metrics that are measured.
+    pub fn metrics(&self) -> Vec<String> {
+        let defined = |id: &&str| {
+            let card = measure::metrics::LIST.iter().find(|card| card.id == *id);
+            card.is_some_and(|card| card.dimensions.contains(&self.space.dimensions))
+        };
+        let usual = || MEASURED.iter().filter(|id| defined(id)).map(|&id| id.to_owned()).collect();
+        self.measure.metrics.clone().unwrap_or_else(usual)
     }
 }
 
@@ -271,12 +284,13 @@ form! {
 pub fn metrics_of<const D: usize>(scenario: &Scenario) -> Result<Vec<Box<dyn measure::Measure<D>>>, build::Wrong> {
     use build::Wrong;
     let mut metrics = Vec::new();
-    for (k, id) in scenario.measure.metrics.iter().enumerate() {
+    let ids = scenario.metrics();
+    for (k, id) in ids.iter().enumerate() {
         let at = format!("measure.metrics.{k}");
         let metric = measure::metrics::find::<D>(id).map_err(|error| {
             Wrong::new(at.clone(), error.to_string(), "not a metric").help("`flockworks metrics` lists them")
         })?;
-        if scenario.measure.metrics[..k].contains(id) {
+        if ids[..k].contains(id) {
             return Err(Wrong::new(at, format!("`{id}` is measured already"), "given twice"));
         }
         if !metric.card().dimensions.contains(&D) {

@@ -328,6 +328,10 @@ impl Table {
     pub fn rows(&self) -> u64 {
         u64::try_from(self.reader.metadata().file_metadata().num_rows()).unwrap_or(0)
     }
+    /// Number of rows in a row group.
+    pub fn rows_in(&self, group: usize) -> u64 {
+        u64::try_from(self.reader.metadata().row_group(group).num_rows()).unwrap_or(0)
+    }
     /// The place of a column.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.headings.iter().position(|heading| heading.name == name)

@@ -10,7 +10,7 @@ use space::{Columns, Vector};
 /// First bytes of a saved state; the last one counts the changes of its layout.
 const MARK: u64 = u64::from_le_bytes(*b"flkstat\x01");
 
-/// Numbers written one after the other, little end first. Both precisions are widened to f64, which loses nothing.
+/// Numbers written one after the other, little end first, each as wide as it is.
 #[derive(Default)]
 struct Out(Vec<u8>);
 
@@ -21,21 +21,24 @@ impl Out {
     fn number(&mut self, value: f64) {
         self.word(value.to_bits());
     }
-    fn numbers<R: Scalar>(&mut self, values: &[R]) {
+    fn real<R: Scalar>(&mut self, value: R) {
+        self.0.extend_from_slice(&value.bits().to_le_bytes()[..size_of::<R>()]);
+    }
+    fn numbers(&mut self, values: &[f64]) {
         self.word(values.len() as u64);
-        values.iter().for_each(|v| self.number(v.to_f64()));
+        values.iter().for_each(|&v| self.number(v));
     }
     fn vectors<R: Scalar, const D: usize>(&mut self, values: &[Vector<R, D>]) {
         self.word(values.len() as u64);
-        values.iter().flat_map(|v| v.0).for_each(|v| self.number(v.to_f64()));
+        values.iter().flat_map(|v| v.0).for_each(|v| self.real(v));
     }
     fn columns<R: Scalar, const D: usize>(&mut self, columns: &Columns<R, D>) {
         let agents = columns.len();
         self.word(agents as u64);
         self.word(columns.state.len() as u64);
-        columns.id[..agents].iter().for_each(|&id| self.word(u64::from(id)));
+        columns.id[..agents].iter().for_each(|id| self.0.extend_from_slice(&id.to_le_bytes()));
         for column in columns.position.iter().chain(&columns.velocity).chain(&columns.state) {
-            column[..agents].iter().for_each(|v| self.number(v.to_f64()));
+            column[..agents].iter().for_each(|&v| self.real(v));
         }
     }
 }
@@ -52,6 +55,19 @@ impl In<'_> {
     fn number(&mut self) -> Option<f64> {
         self.word().map(f64::from_bits)
     }
+    fn id(&mut self) -> Option<u32> {
+        let (id, rest) = self.0.split_first_chunk::<4>()?;
+        self.0 = rest;
+        Some(u32::from_le_bytes(*id))
+    }
+    fn real<R: Scalar>(&mut self) -> Option<R> {
+        // a 32-bit number is widened on the way, which loses nothing
+        if size_of::<R>() == 4 {
+            self.id().map(|bits| R::of(f64::from(f32::from_bits(bits))))
+        } else {
+            self.number().map(R::of)
+        }
+    }
     /// A number of things of which each takes at least `bytes` bytes: never more than there can be.
     fn count(&mut self, bytes: usize) -> Option<usize> {
         let count = usize::try_from(self.word()?).ok()?;
@@ -63,23 +79,23 @@ impl In<'_> {
     fn vector<R: Scalar, const D: usize>(&mut self) -> Option<Vector<R, D>> {
         let mut vector = Vector::ZERO;
         for a in 0..D {
-            vector.0[a] = R::of(self.number()?);
+            vector.0[a] = self.real()?;
         }
         Some(vector)
     }
     fn columns<R: Scalar, const D: usize>(&mut self) -> Option<Columns<R, D>> {
-        let agents = self.count(8 * (1 + 2 * D))?;
+        let agents = self.count(4 + 2 * D * size_of::<R>())?;
         let state = usize::try_from(self.word()?).ok()?;
-        if agents.checked_mul(state)?.checked_mul(8)? > self.0.len() || state > 1 << 16 {
+        if agents.checked_mul(state)?.checked_mul(size_of::<R>())? > self.0.len() || state > 1 << 16 {
             return None;
         }
         let mut columns = Columns::new(agents, state);
         for row in 0..agents {
-            columns.id[row] = u32::try_from(self.word()?).ok().filter(|&id| (id as usize) < agents)?;
+            columns.id[row] = self.id().filter(|&id| (id as usize) < agents)?;
         }
         for column in columns.position.iter_mut().chain(&mut columns.velocity).chain(&mut columns.state) {
             for value in &mut column[..agents] {
-                *value = R::of(self.number()?);
+                *value = self.real()?;
             }
         }
         Some(columns)
@@ -113,7 +129,7 @@ impl<R: Scalar, const D: usize> Checkpoint<R, D> {
         self.clocks.decisions.iter().for_each(|&decisions| out.word(decisions));
         out.word(self.clocks.command.len() as u64);
         for motion in &self.clocks.command {
-            motion.velocity.0.iter().chain(&motion.displacement.0).for_each(|v| out.number(v.to_f64()));
+            motion.velocity.0.iter().chain(&motion.displacement.0).for_each(|&v| out.real(v));
         }
         out.word(self.clocks.history.len() as u64);
         self.clocks.history.iter().for_each(|columns| out.columns(columns));
@@ -145,7 +161,7 @@ impl<R: Scalar, const D: usize> Checkpoint<R, D> {
             (0, None) => None,
             (1, Some(resources)) => {
                 let mut resources: Resources<R, D> = resources.clone();
-                resources.place = from.many(8 * D, In::vector)?;
+                resources.place = from.many(D * size_of::<R>(), In::vector)?;
                 let items = resources.place.len();
                 let until = |from: &mut In<'_>| from.number().map(|t| (!t.is_nan()).then_some(t));
                 resources.absent_until = (0..items).map(|_| until(&mut from)).collect::<Option<_>>()?;
@@ -159,7 +175,7 @@ impl<R: Scalar, const D: usize> Checkpoint<R, D> {
         let due = from.many(8, In::number)?;
         let decisions = (0..due.len()).map(|_| from.word()).collect::<Option<_>>()?;
         let motion = |from: &mut In<'_>| Some(Motion { velocity: from.vector()?, displacement: from.vector()? });
-        let command = from.many(16 * D, motion)?;
+        let command = from.many(2 * D * size_of::<R>(), motion)?;
         let history = from.many(16, In::columns)?.into();
         let memory = from.many(8, In::number)?;
         let mut met_total = [0; 4];

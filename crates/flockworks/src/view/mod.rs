@@ -1,0 +1,236 @@
+//! `flockworks view`: a page on loopback that shows a world while it runs, or a run that was recorded.
+//!
+//! The messages are those of `docs/explanation/viewer-protocol.md`. Each connection has a session of its own, on a thread
+//! of its own.
+
+mod assets;
+mod session;
+
+use crate::fault::{Fault, wrong};
+use crate::run::{PROGRAM, read_back, scenario};
+use axum::Router;
+use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade};
+use axum::extract::{Path as Part, State};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use clap::Args;
+use serde_json::json;
+use session::{Outgoing, Session};
+use std::io::Write;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Options of `view`.
+#[derive(Args, Debug)]
+pub struct ViewOptions {
+    /// A scenario file, or the folder of a complete run; two of them are shown side by side. Without any, the gallery.
+    #[arg(num_args = 0..=2)]
+    pub what: Vec<PathBuf>,
+    /// Port on 127.0.0.1. Left out, a free one is chosen.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub port: u16,
+    /// Open the page in the browser.
+    #[arg(long)]
+    pub open: bool,
+    /// Number of threads for a simulation.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub threads: usize,
+}
+
+/// Something the command line named.
+#[derive(Clone, Debug)]
+pub(crate) enum Given {
+    /// A scenario: name and text.
+    Scenario(String, String),
+    /// The folder of a run.
+    Run(PathBuf),
+}
+
+/// What all connections share.
+pub(crate) struct Shared {
+    given: Vec<Given>,
+    threads: usize,
+    port: u16,
+}
+
+/// Largest message from the page, in bytes.
+const LARGEST: usize = 64 << 10;
+/// Messages that may wait for a slow page before it is given up.
+const WAITING: usize = 512;
+
+/// Serves the page until it is interrupted.
+///
+/// # Errors
+/// What is wrong with the file or the folder, or a port that is taken.
+pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
+    if options.threads == 0 {
+        return wrong("--threads must be 1 or more, found 0");
+    }
+    let mut given = Vec::new();
+    for path in &options.what {
+        if path.is_dir() {
+            read_back(path)?;
+            given.push(Given::Run(path.clone()));
+        } else {
+            let name = path.display().to_string();
+            let read = scenario(&name, &[])?;
+            given.push(Given::Scenario(name, read.sources.text(0).to_owned()));
+        }
+    }
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(1)
+        .enable_all()
+        .build()
+        .map_err(|error| Fault::Ours(format!("cannot start the server: {error}")))?;
+    runtime.block_on(serve(options, given, out))
+}
+
+async fn serve(options: &ViewOptions, given: Vec<Given>, out: &mut dyn Write) -> Result<(), Fault> {
+    let address = SocketAddr::from((Ipv4Addr::LOCALHOST, options.port));
+    let listener = tokio::net::TcpListener::bind(address)
+        .await
+        .map_err(|error| Fault::Input(format!("cannot listen on {address}: {error}; choose another --port")))?;
+    let port = listener.local_addr().map_or(options.port, |address| address.port());
+    let address = format!("http://127.0.0.1:{port}/");
+    writeln!(out, "{address}\nCtrl-C ends it")?;
+    out.flush()?;
+    if options.open {
+        open(&address, out)?;
+    }
+    let shared = Arc::new(Shared { given, threads: options.threads, port });
+    let router = Router::new()
+        .route("/", get(page))
+        .route("/gallery.json", get(gallery))
+        .route("/ws", get(socket))
+        .route("/{name}", get(asset))
+        .with_state(shared);
+    // a second Ctrl-C is not needed: nothing is written that could be lost
+    let stop = async {
+        let _ = tokio::signal::ctrl_c().await;
+    };
+    tokio::select! {
+        served = async { axum::serve(listener, router).await } => {
+            served.map_err(|error| Fault::Ours(format!("the server stopped: {error}")))
+        }
+        () = stop => Ok(()),
+    }
+}
+
+/// Opens an address in the user's browser.
+fn open(address: &str, out: &mut dyn Write) -> Result<(), Fault> {
+    let program = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
+    let silent = std::process::Stdio::null;
+    let opened = std::process::Command::new(program).arg(address).stdout(silent()).stderr(silent()).spawn();
+    if opened.is_err() {
+        writeln!(out, "no browser could be opened; open the address by hand")?;
+    }
+    Ok(())
+}
+
+/// Whether a request comes to this server by a loopback name, so that no other site can pass its name off for it.
+fn local(headers: &HeaderMap, port: u16) -> bool {
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
+    host.is_some_and(|host| [format!("127.0.0.1:{port}"), format!("localhost:{port}")].iter().any(|own| own == host))
+}
+
+/// Whether a page of this server opened the socket.
+fn own_page(headers: &HeaderMap, port: u16) -> bool {
+    let origin = headers.get(header::ORIGIN).and_then(|origin| origin.to_str().ok());
+    let own = [format!("http://127.0.0.1:{port}"), format!("http://localhost:{port}")];
+    origin.is_some_and(|origin| own.iter().any(|own| own == origin))
+}
+
+fn refused() -> Response {
+    (StatusCode::FORBIDDEN, "this address is for pages of this machine only\n").into_response()
+}
+
+fn file(kind: &'static str, bytes: &'static [u8]) -> Response {
+    let mut response = bytes.into_response();
+    let headers = response.headers_mut();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(kind));
+    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    headers.insert(header::X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
+    response
+}
+
+async fn page(State(shared): State<Arc<Shared>>, headers: HeaderMap) -> Response {
+    if !local(&headers, shared.port) {
+        return refused();
+    }
+    file("text/html; charset=utf-8", assets::PAGE)
+}
+
+async fn asset(State(shared): State<Arc<Shared>>, headers: HeaderMap, Part(name): Part<String>) -> Response {
+    if !local(&headers, shared.port) {
+        return refused();
+    }
+    match assets::FILES.iter().find(|(known, ..)| *known == name) {
+        Some(&(_, kind, bytes)) => file(kind, bytes),
+        None => (StatusCode::NOT_FOUND, "no such file\n").into_response(),
+    }
+}
+
+async fn gallery(State(shared): State<Arc<Shared>>, headers: HeaderMap) -> Response {
+    if !local(&headers, shared.port) {
+        return refused();
+    }
+    let built = lab::gallery::LIST.iter().filter_map(|built| {
+        let scenario = lab::scenario::build::read(built.id, built.text, &[]).ok()?.scenario;
+        let models: Vec<&str> = scenario.group.0.iter().map(|(_, group)| group.model.id.as_str()).collect();
+        let agents: usize = scenario.group.0.iter().map(|(_, group)| group.count).sum();
+        Some(json!({
+            "id": built.id, "title": scenario.title, "about": scenario.about,
+            "dimensions": scenario.space.dimensions, "models": models, "agents": agents,
+        }))
+    });
+    let text = serde_json::Value::Array(built.collect()).to_string();
+    ([(header::CONTENT_TYPE, "application/json")], text).into_response()
+}
+
+async fn socket(State(shared): State<Arc<Shared>>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
+    if !local(&headers, shared.port) || !own_page(&headers, shared.port) {
+        return refused();
+    }
+    upgrade.max_message_size(LARGEST).max_frame_size(LARGEST).on_upgrade(|socket| talk(socket, shared))
+}
+
+/// One connection: what the page says goes to the session, what the session says to the page.
+async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
+    let (to_page, mut from_session) = tokio::sync::mpsc::channel::<Outgoing>(WAITING);
+    let (to_session, from_page) = std::sync::mpsc::channel::<String>();
+    let session = Session::new(shared, to_page, PROGRAM);
+    let thread = std::thread::Builder::new().name("session".into()).spawn(move || session.run(&from_page));
+    if thread.is_err() {
+        return;
+    }
+    loop {
+        tokio::select! {
+            said = socket.recv() => match said {
+                Some(Ok(Message::Text(text))) => {
+                    if to_session.send(text.to_string()).is_err() {
+                        break;
+                    }
+                }
+                Some(Ok(Message::Binary(_))) => {
+                    let reason = CloseFrame { code: 1003, reason: "text messages only".into() };
+                    let _ = socket.send(Message::Close(Some(reason))).await;
+                    break;
+                }
+                Some(Ok(Message::Ping(_) | Message::Pong(_))) => {}
+                Some(Ok(Message::Close(_)) | Err(_)) | None => break,
+            },
+            heard = from_session.recv() => {
+                let message = match heard {
+                    Some(Outgoing::Text(text)) => Message::Text(text.into()),
+                    Some(Outgoing::Frame(bytes)) => Message::Binary(bytes.into()),
+                    None => break,
+                };
+                if socket.send(message).await.is_err() {
+                    break;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,301 @@
+//! The viewer's server: what it serves, whom it refuses, and a conversation with a session.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+
+struct Server {
+    child: Child,
+    port: u16,
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn served(arguments: &[&str]) -> Server {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_flockworks"))
+        .arg("view")
+        .args(arguments)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    let port = line.trim().trim_start_matches("http://127.0.0.1:").trim_end_matches('/').parse().unwrap();
+    Server { child, port }
+}
+
+fn study(name: &str) -> String {
+    format!("{}/../../studies/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Sends a request and gives the connection back.
+fn asked(port: u16, path: &str, headers: &str) -> TcpStream {
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    stream.write_all(format!("GET {path} HTTP/1.1\r\n{headers}\r\n").as_bytes()).unwrap();
+    stream
+}
+
+/// The answer to a request with `Connection: close`.
+fn got(port: u16, path: &str, host: &str) -> String {
+    let mut answer = Vec::new();
+    let mut stream = asked(port, path, &format!("Host: {host}\r\nConnection: close\r\n"));
+    stream.read_to_end(&mut answer).unwrap();
+    String::from_utf8_lossy(&answer).into_owned()
+}
+
+/// A socket after its handshake, or the status line of the refusal.
+fn socket(port: u16, origin: &str) -> Result<BufReader<TcpStream>, String> {
+    let origin = if origin.is_empty() { String::new() } else { format!("Origin: {origin}\r\n") };
+    let headers = format!(
+        "Host: 127.0.0.1:{port}\r\n{origin}Upgrade: websocket\r\nConnection: Upgrade\r\n\
+         Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n"
+    );
+    let mut reader = BufReader::new(asked(port, "/ws", &headers));
+    let mut status = String::new();
+    reader.read_line(&mut status).unwrap();
+    if !status.contains("101") {
+        return Err(status);
+    }
+    let mut line = String::new();
+    while line != "\r\n" {
+        line.clear();
+        reader.read_line(&mut line).unwrap();
+    }
+    Ok(reader)
+}
+
+fn say(socket: &mut BufReader<TcpStream>, kind: u8, bytes: &[u8]) {
+    let mut frame = vec![0x80 | kind];
+    match bytes.len() {
+        n if n < 126 => frame.push(0x80 | n as u8),
+        n if n < 65_536 => {
+            frame.push(0x80 | 126);
+            frame.extend((n as u16).to_be_bytes());
+        }
+        n => {
+            frame.push(0x80 | 127);
+            frame.extend((n as u64).to_be_bytes());
+        }
+    }
+    // a mask of zeros changes nothing
+    frame.extend([0; 4]);
+    frame.extend(bytes);
+    socket.get_mut().write_all(&frame).unwrap();
+}
+
+enum Heard {
+    Text(Value),
+    Frame(Vec<u8>),
+    Closed,
+}
+
+fn hear(socket: &mut BufReader<TcpStream>) -> Heard {
+    let mut head = [0; 2];
+    if socket.read_exact(&mut head).is_err() {
+        return Heard::Closed;
+    }
+    let length = match head[1] & 127 {
+        126 => {
+            let mut bytes = [0; 2];
+            socket.read_exact(&mut bytes).unwrap();
+            usize::from(u16::from_be_bytes(bytes))
+        }
+        127 => {
+            let mut bytes = [0; 8];
+            socket.read_exact(&mut bytes).unwrap();
+            u64::from_be_bytes(bytes) as usize
+        }
+        short => usize::from(short),
+    };
+    let mut payload = vec![0; length];
+    socket.read_exact(&mut payload).unwrap();
+    match head[0] & 15 {
+        1 => Heard::Text(serde_json::from_slice(&payload).unwrap()),
+        2 => Heard::Frame(payload),
+        8 => Heard::Closed,
+        _ => hear(socket),
+    }
+}
+
+fn tell(socket: &mut BufReader<TcpStream>, message: &Value) {
+    say(socket, 1, message.to_string().as_bytes());
+}
+
+/// The next message of a kind; others are passed over.
+fn until(socket: &mut BufReader<TcpStream>, is: &str) -> Value {
+    loop {
+        match hear(socket) {
+            Heard::Text(message) if message["is"] == is => return message,
+            Heard::Closed => panic!("closed before `{is}`"),
+            Heard::Text(_) | Heard::Frame(_) => {}
+        }
+    }
+}
+
+fn frame(socket: &mut BufReader<TcpStream>) -> Vec<u8> {
+    loop {
+        match hear(socket) {
+            Heard::Frame(bytes) => return bytes,
+            Heard::Closed => panic!("closed before a frame"),
+            Heard::Text(_) => {}
+        }
+    }
+}
+
+fn whole(bytes: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
+}
+
+#[test]
+fn it_serves_its_page_to_this_machine_alone() {
+    let server = served(&[]);
+    let port = server.port;
+    let host = format!("127.0.0.1:{port}");
+    let page = got(port, "/", &host);
+    assert!(page.starts_with("HTTP/1.1 200") && page.contains("text/html") && page.contains("Content-Security-Policy"));
+    assert!(got(port, "/main.js", &host).contains("text/javascript"));
+    assert!(got(port, "/none.js", &host).starts_with("HTTP/1.1 404"));
+    let gallery = got(port, "/gallery.json", &format!("localhost:{port}"));
+    assert_eq!(gallery.matches("\"id\":").count(), 9);
+    // another site whose name leads here is not this one
+    assert!(got(port, "/", "evil.example").starts_with("HTTP/1.1 403"));
+    for origin in ["", "http://evil.example", "null", "http://127.0.0.1:1"] {
+        assert!(socket(port, origin).is_err_and(|status| status.contains("403")), "{origin}");
+    }
+    assert!(socket(port, &format!("http://127.0.0.1:{port}")).is_ok());
+}
+
+#[test]
+fn a_session_plays_and_changes_a_simulation() {
+    let server = served(&[]);
+    let mut socket = socket(server.port, &format!("http://127.0.0.1:{}", server.port)).unwrap();
+    assert_eq!(until(&mut socket, "hello")["given"], json!([]));
+    tell(&mut socket, &json!({ "do": "play" }));
+    assert!(until(&mut socket, "problem")["text"].as_str().unwrap().contains("nothing is opened"));
+    tell(&mut socket, &json!({ "do": "open", "gallery": "schooling" }));
+    let scene = until(&mut socket, "scene");
+    assert_eq!((&scene["dimensions"], &scene["kind"]), (&json!(3), &json!("live")));
+    assert_eq!(scene["labels"][0]["column"], "behaviour");
+    assert_eq!(until(&mut socket, "obstacles")["list"].as_array().unwrap().len(), 120);
+    let first = frame(&mut socket);
+    assert_eq!((whole(&first, 0), whole(&first, 4), whole(&first, 16)), (1, 0, 200));
+    assert_eq!(first.len(), 24 + 200 * (4 * 6 + 1));
+    assert!(until(&mut socket, "metrics")["rows"][0]["values"].as_array().unwrap().len() == 7);
+    tell(&mut socket, &json!({ "do": "step", "count": 10 }));
+    let later = frame(&mut socket);
+    assert_eq!(whole(&later, 4), 10);
+    // two frames are unseen: the next waits for the page
+    tell(&mut socket, &json!({ "do": "step", "count": 5 }));
+    tell(&mut socket, &json!({ "do": "seen", "number": 2 }));
+    assert_eq!(whole(&frame(&mut socket), 4), 15);
+    tell(&mut socket, &json!({ "do": "seen", "number": 3 }));
+    let control = scene["controls"].as_array().unwrap().iter().find(|c| c["name"] == "speed").unwrap();
+    assert_eq!((&control["unit"], &control["value"], &control["low"]), (&json!("radii/s"), &json!(6.0), &json!(0.1)));
+    let path = &control["path"];
+    tell(&mut socket, &json!({ "do": "set", "path": path, "value": 12 }));
+    let event = until(&mut socket, "event");
+    assert_eq!((&event["step"], event["what"].as_str().unwrap().ends_with(".speed = 12")), (&json!(15), true));
+    tell(&mut socket, &json!({ "do": "set", "path": path, "value": -1 }));
+    assert!(until(&mut socket, "problem")["text"].as_str().unwrap().contains("must be more than 0"));
+    tell(&mut socket, &json!({ "do": "save" }));
+    let saved = until(&mut socket, "file")["text"].as_str().unwrap().to_owned();
+    assert!(saved.contains("speed = 12") && saved.contains("# 120 spheres"), "{saved}");
+    let file = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("saved.toml");
+    std::fs::write(&file, saved).unwrap();
+    let check = Command::new(env!("CARGO_BIN_EXE_flockworks")).arg("check").arg(&file).output().unwrap();
+    assert_eq!(check.status.code(), Some(0));
+    tell(&mut socket, &json!({ "do": "play" }));
+    assert_eq!(until(&mut socket, "status")["playing"], true);
+}
+
+#[test]
+fn nonsense_is_answered_and_too_much_is_cut_off() {
+    let server = served(&[&study("gallery/mill.toml")]);
+    let origin = format!("http://127.0.0.1:{}", server.port);
+    let mut first = socket(server.port, &origin).unwrap();
+    assert_eq!(until(&mut first, "hello")["given"][0]["kind"], "scenario");
+    tell(&mut first, &json!({ "do": "open", "given": 0 }));
+    until(&mut first, "scene");
+    for nonsense in [
+        "",
+        "{",
+        "[]",
+        "{\"do\":7}",
+        "{\"do\":\"fly\"}",
+        "{\"do\":\"speed\"}",
+        "{\"do\":\"set\",\"path\":\"a\"}",
+        "{\"do\":\"speed\",\"rate\":-5}",
+        "{\"do\":\"seek\",\"frame\":3}",
+        "{\"do\":\"open\",\"gallery\":\"none\"}",
+        "{\"do\":\"set\",\"path\":\"space.dimensions\",\"value\":3}",
+    ] {
+        say(&mut first, 1, nonsense.as_bytes());
+        until(&mut first, "problem");
+    }
+    // it still works
+    tell(&mut first, &json!({ "do": "step", "count": 1 }));
+    frame(&mut first);
+    say(&mut first, 1, &vec![b' '; 100_000]);
+    while !matches!(hear(&mut first), Heard::Closed) {}
+    let mut second = socket(server.port, &origin).unwrap();
+    until(&mut second, "hello");
+    say(&mut second, 2, &[1, 2, 3]);
+    while !matches!(hear(&mut second), Heard::Closed) {}
+    assert!(socket(server.port, &origin).is_ok(), "the server is still there");
+}
+
+#[test]
+fn a_recorded_run_is_scrubbed_both_ways() {
+    let out = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("view-run");
+    let _ = std::fs::remove_dir_all(&out);
+    let run = Command::new(env!("CARGO_BIN_EXE_flockworks"))
+        .args(["run", &study("schooling.toml"), "--quick", "--out", out.to_str().unwrap()])
+        .output()
+        .unwrap();
+    assert_eq!(run.status.code(), Some(0));
+    let server = served(&[out.to_str().unwrap()]);
+    let mut socket = socket(server.port, &format!("http://127.0.0.1:{}", server.port)).unwrap();
+    tell(&mut socket, &json!({ "do": "open", "given": 0 }));
+    let scene = until(&mut socket, "scene");
+    assert_eq!((&scene["kind"], &scene["frames"], &scene["every_steps"]), (&json!("run"), &json!(61), &json!(10)));
+    let all = until(&mut socket, "metrics_all");
+    assert_eq!(all["t"].as_array().unwrap().len(), 61);
+    assert_eq!(all["groups"][0]["values"].as_array().unwrap().len(), 7);
+    let zero = frame(&mut socket);
+    let mut number = 1;
+    let mut seek = |to: u64| {
+        tell(&mut socket, &json!({ "do": "seen", "number": number }));
+        tell(&mut socket, &json!({ "do": "seek", "frame": to }));
+        number += 1;
+        frame(&mut socket)
+    };
+    let last = seek(1000);
+    assert_eq!(whole(&last, 4), 600);
+    let again = seek(0);
+    assert_eq!(zero[4..], again[4..], "the same frame but for its number");
+    tell(&mut socket, &json!({ "do": "set", "path": "seed", "value": 3 }));
+    assert!(until(&mut socket, "problem")["text"].as_str().unwrap().contains("does not change"));
+}
+
+#[test]
+fn wrong_input_is_refused_before_anything_is_served() {
+    let refused = |arguments: &[&str], part: &str| {
+        let run = Command::new(env!("CARGO_BIN_EXE_flockworks")).arg("view").args(arguments).output().unwrap();
+        let text = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(2), "{text}");
+        assert!(text.contains(part), "`{part}` is not in: {text}");
+    };
+    refused(&["nothing.toml"], "cannot read");
+    refused(&[env!("CARGO_TARGET_TMPDIR")], "not the folder of a run");
+    refused(&["--threads", "0"], "--threads");
+    let taken = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+    refused(&["--port", &taken.local_addr().unwrap().port().to_string()], "cannot listen");
+}

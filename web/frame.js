@@ -1,0 +1,133 @@
+// What the server sends, read and checked: binary frames, scenes and explanations.
+
+import { isNumber } from "./words.js";
+
+const HEADER = 24;
+const MOST_AGENTS = 5_000_000;
+
+/**
+ * A frame; its arrays are views of the buffer, in the order of the agents' ids. The numbers stand little end first, as
+ * they do in every browser's arrays.
+ */
+export function readFrame(buffer) {
+  if (!(buffer instanceof ArrayBuffer) || buffer.byteLength < HEADER) throw new Error("a frame without a beginning");
+  const head = new DataView(buffer);
+  const agents = head.getUint32(16, true), dimensions = head.getUint8(20), labelled = head.getUint8(21);
+  if (dimensions < 1 || dimensions > 3 || agents > MOST_AGENTS || labelled > 1) throw new Error("a frame of another kind");
+  const coordinates = agents * dimensions;
+  const bytes = HEADER + 8 * coordinates + agents * labelled;
+  if (buffer.byteLength !== bytes) throw new Error(`a frame of ${buffer.byteLength} bytes, where ${bytes} were expected`);
+  return {
+    number: head.getUint32(0, true),
+    step: head.getUint32(4, true),
+    time: head.getFloat64(8, true),
+    agents,
+    dimensions,
+    positions: new Float32Array(buffer, HEADER, coordinates),
+    headings: new Float32Array(buffer, HEADER + 4 * coordinates, coordinates),
+    labels: labelled ? new Uint8Array(buffer, HEADER + 8 * coordinates, agents) : null,
+  };
+}
+
+/** A place or direction of an agent with three coordinates; null for the dead and for nobody. */
+export function vectorOf(values, frame, agent) {
+  if (agent < 0 || agent >= frame.agents) return null;
+  const at = agent * frame.dimensions;
+  const vector = [0, 1, 2].map((axis) => (axis < frame.dimensions ? values[at + axis] : 0));
+  return vector.every(Number.isFinite) ? vector : null;
+}
+
+const list = (value) => (Array.isArray(value) ? value : []);
+const objects = (value) => list(value).filter((part) => part !== null && typeof part === "object");
+const text = (value, otherwise = "") => (typeof value === "string" ? value : otherwise);
+const number = (value, otherwise = null) => (isNumber(value) ? value : otherwise);
+
+/** Three coordinates of a list of one to three numbers; what is missing is 0. */
+export const vector = (value) => {
+  const parts = list(value);
+  if (parts.length === 0 || parts.length > 3 || !parts.every(isNumber)) throw new Error("a vector without numbers");
+  return [parts[0], parts[1] ?? 0, parts[2] ?? 0];
+};
+const perhapsVector = (value) => { try { return vector(value); } catch { return null; } };
+
+function readControl(control) {
+  if (typeof control.path !== "string" || !["number", "whole", "truth", "word"].includes(control.kind)) return null;
+  return {
+    path: control.path, kind: control.kind, group: text(control.group), name: text(control.name, control.path),
+    symbol: text(control.symbol), about: text(control.about), unit: text(control.unit),
+    low: number(control.low), high: number(control.high), step: number(control.step),
+    default: control.default ?? null, value: control.value ?? control.default ?? null,
+    words: list(control.words).filter((word) => typeof word === "string"),
+  };
+}
+
+export function readScene(message) {
+  const dimensions = message.dimensions;
+  if (![1, 2, 3].includes(dimensions)) throw new Error("a scene without dimensions");
+  const groups = objects(message.groups).map((group, index) => ({
+    name: text(group.name, `group ${index + 1}`), model: text(group.model), title: text(group.title),
+    first: number(group.first, 0), count: number(group.count, 0), radius: number(group.radius, 0),
+  }));
+  const space = message.space ?? {};
+  const axes = [0, 1, 2].slice(0, dimensions);
+  return {
+    isRun: message.kind === "run", title: text(message.title, "Untitled"), about: text(message.about),
+    seed: number(message.seed), dimensions, groups,
+    units: { length: text(message.units?.length), time: text(message.units?.time) },
+    space: {
+      edges: axes.map((axis) => text(list(space.edges)[axis], "open")),
+      low: axes.map((axis) => number(list(space.low)[axis])),
+      high: axes.map((axis) => number(list(space.high)[axis])),
+    },
+    agents: groups.reduce((most, group) => Math.max(most, group.first + group.count), 0),
+    labels: objects(message.labels).slice(0, 1).map((label) => ({ column: text(label.column, "label"), names: list(label.names).map(String) })),
+    step: number(message.step, 1), steps: number(message.steps),
+    frames: Math.max(0, number(message.frames, 0)), fromStep: number(message.from_step, 0),
+    everySteps: Math.max(1, number(message.every_steps, 1)),
+    metrics: objects(message.metrics).map((metric) => ({
+      id: text(metric.id), title: text(metric.title, text(metric.id)), unit: text(metric.unit),
+      range: list(metric.range).length === 2 && metric.range.every(isNumber) ? metric.range : null,
+    })),
+    controls: objects(message.controls).map(readControl).filter((control) => control !== null),
+    events: objects(message.events).map(readEvent),
+  };
+}
+
+export const readEvent = (event) => ({ step: number(event.step, 0), t: number(event.t, 0), what: text(event.what, "something") });
+
+const member = (value) => ({ offset: perhapsVector(value.offset), id: number(value.id) });
+const members = (value) => objects(value).map(member).filter(({ offset }) => offset !== null);
+
+export function readExplanation(value) {
+  if (value === null || typeof value !== "object" || !isNumber(value.agent)) throw new Error("an explanation of nobody");
+  const velocity = (part) => perhapsVector(part?.velocity);
+  return {
+    agent: value.agent, group: text(value.group), model: text(value.model), step: number(value.step), t: number(value.t),
+    position: vector(value.position), velocity: velocity(value), heading: perhapsVector(value.heading) ?? [0, 0, 0],
+    radius: number(value.radius, 0),
+    sensing: {
+      kind: text(value.sensing?.kind, "ideal"), range: number(value.sensing?.range),
+      opening: number(value.sensing?.field_of_view),
+    },
+    rays: objects(value.rays).map((ray) => ({ to: perhapsVector(ray.to), hit: text(ray.hit, "nothing"), lost: ray.lost === true }))
+      .filter(({ to }) => to !== null),
+    detected: members(value.detected),
+    sets: objects(value.sets).map((set) => ({
+      name: text(set.name), rule: text(set.rule), acts: set.acts === true,
+      low: number(set.low), high: number(set.high), angle: number(set.angle), members: members(set.members),
+    })),
+    obstacles: objects(value.obstacles).map((seen) => ({
+      offset: perhapsVector(seen.offset), distance: number(seen.distance), away: perhapsVector(seen.away),
+    })).filter(({ offset }) => offset !== null),
+    components: objects(value.components).map((part) => ({
+      name: text(part.name), vector: perhapsVector(part.vector) ?? [0, 0, 0], magnitude: number(part.magnitude),
+    })),
+    values: objects(value.values).map((row) => ({ stage: text(row.stage), name: text(row.name), value: row.value, unit: text(row.unit) })),
+    choice: objects(value.choice).map((option) => ({
+      name: text(option.name), probability: number(option.probability), chosen: option.chosen === true,
+    })),
+    wanted: velocity(value.wanted),
+    performed: velocity(value.performed),
+    met: text(value.performed?.met, "nothing"),
+  };
+}

@@ -1,0 +1,164 @@
+// The wall of built-in scenarios: a still of each, and the one that is pointed at plays.
+
+import { Connection } from "./connection.js";
+import { Drawing } from "./draw.js";
+import { readFrame, readScene, vector } from "./frame.js";
+import { readShape } from "./solids.js";
+import { colours, element, one, wantsCalm } from "./words.js";
+
+// a still shows a scenario after so many steps, when something has happened
+const STILL_STEPS = 120;
+const WIDE = 320, TALL = 200;
+
+export class Gallery {
+  constructor(place, openScenario) {
+    Object.assign(this, { place, openScenario, cards: [], preview: null, isLoaded: false });
+  }
+
+  /** Shows the wall, with what the command line named before what is built in. */
+  async show(given) {
+    this.place.hidden = false;
+    const wall = one(".wall", this.place), state = one(".state", this.place);
+    if (!this.isLoaded) {
+      state.textContent = "Loading the gallery…";
+      try {
+        const answer = await fetch("gallery.json");
+        if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
+        const list = await answer.json();
+        if (!Array.isArray(list)) throw new Error("the gallery is no list");
+        this.list = list.filter((item) => item !== null && typeof item === "object" && typeof item.id === "string");
+        this.isLoaded = true;
+      } catch (error) {
+        state.textContent = `The gallery did not come: ${error.message}.`;
+        return;
+      }
+    }
+    const named = given.map((item, index) => ({ given: index, title: String(item.name), about: item.kind === "run" ? "A recorded run, named on the command line." : "A scenario, named on the command line." }));
+    state.textContent = this.list.length + named.length === 0 ? "There is nothing in the gallery." : "";
+    this.cards = [...named, ...this.list].map((item) => this.card(item));
+    wall.replaceChildren(...this.cards.map(({ box }) => box));
+    this.takeStills();
+  }
+
+  hide() {
+    this.place.hidden = true;
+    this.preview?.end();
+    this.preview = null;
+  }
+
+  card(item) {
+    const canvas = element("canvas", { width: WIDE, height: TALL });
+    const facts = [item.dimensions ? `${item.dimensions}-D` : "", item.agents ? `${item.agents} agents` : "", ...(Array.isArray(item.models) ? item.models : [])];
+    const about = element("p", { textContent: item.about ?? "" });
+    const button = element("button", { type: "button", className: "open", textContent: item.title ?? item.id });
+    const box = element("li", { className: "card" }, canvas, element("h3", {}, button), about, element("p", { className: "facts-of", textContent: facts.filter(Boolean).join(" · ") }));
+    canvas.setAttribute("aria-hidden", "true");
+    const card = { box, canvas, what: item.given === undefined ? { gallery: item.id } : { given: item.given }, isDrawn: false };
+    box.dataset.id = item.id ?? `given-${item.given}`;
+    button.addEventListener("click", () => this.openScenario(card.what));
+    const play = () => { if (!wantsCalm()) this.preview?.play(card); };
+    const stop = () => this.preview?.stop(card);
+    box.addEventListener("pointerenter", play);
+    box.addEventListener("pointerleave", stop);
+    button.addEventListener("focus", play);
+    button.addEventListener("blur", stop);
+    return card;
+  }
+
+  takeStills() {
+    this.preview?.end();
+    try {
+      this.preview = new Preview(() => this.cards.find((card) => !card.isDrawn && card.box.getBoundingClientRect().top < 2 * innerHeight));
+      this.place.onscroll = () => this.preview?.next();
+    } catch { this.preview = null; /* without WebGL, cards are words */ }
+  }
+
+  repaint() {
+    for (const card of this.cards) card.isDrawn = false;
+    if (!this.place.hidden) this.takeStills();
+  }
+}
+
+/** One connection and one drawing, lent to a card at a time. */
+class Preview {
+  constructor(nextCard) {
+    this.nextCard = nextCard;
+    this.canvas = new OffscreenCanvas(WIDE, TALL);
+    this.drawing = new Drawing(this.canvas);
+    this.drawing.setColours(colours());
+    Object.assign(this, { card: null, plays: false, scene: null, frame: null, waits: false });
+    this.connection = new Connection({
+      state: () => {},
+      message: (message) => this.receive(message),
+      frame: (buffer) => {
+        const frame = readFrame(buffer);
+        if (this.scene) { this.frame = frame; this.request(); } else this.connection.send({ do: "seen", number: frame.number });
+      },
+      // a preview is no place for complaints: the scene itself says what is wrong
+      broken: () => { if (this.card) this.card.isDrawn = true; },
+    });
+  }
+
+  end() {
+    this.connection.end();
+    this.drawing.gl.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+
+  open(card, plays) {
+    Object.assign(this, { card, plays, scene: null, frame: null });
+    if (card) this.connection.send({ do: "open", ...card.what });
+  }
+
+  next() { if (this.card === null) this.open(this.nextCard() ?? null, false); }
+
+  play(card) {
+    if (this.card === card && this.scene) { this.plays = true; this.connection.send({ do: "play" }); } else this.open(card, true);
+  }
+
+  stop(card) {
+    if (this.card !== card || !this.plays) return;
+    this.connection.send({ do: "pause" });
+    this.card = null;
+    this.next();
+  }
+
+  receive(message) {
+    if (message.is === "hello") this.next();
+    if (message.is === "problem" && this.card) { this.card.isDrawn = true; this.card = null; this.next(); }
+    if (message.is === "scene" && this.card) {
+      this.scene = readScene(message);
+      this.drawing.setScene(this.scene, false);
+      this.drawing.resize(WIDE, TALL);
+      this.drawing.fit();
+      if (this.plays) this.connection.send({ do: "play" });
+      else if (this.scene.isRun) this.connection.send({ do: "seek", frame: Math.floor(this.scene.frames / 2) });
+      else this.connection.send({ do: "step", count: STILL_STEPS });
+    }
+    if (message.is === "obstacles" && this.scene) this.drawing.setObstacles((message.list ?? []).map(readShape).filter((shape) => shape !== null));
+    if (message.is === "items" && this.scene) this.drawing.setItems((message.places ?? []).map(vector));
+    if (message.is === "status" && this.scene) this.status = message;
+  }
+
+  request() {
+    if (this.waits) return;
+    this.waits = true;
+    requestAnimationFrame(() => {
+      this.waits = false;
+      const { card, frame } = this;
+      if (!card || !frame || !this.scene || this.drawing.gl.isContextLost()) return;
+      try {
+        this.drawing.setFrame(frame);
+        if (this.scene.space.edges.every((edge) => edge === "open")) this.drawing.fit();
+        this.drawing.draw();
+        card.canvas.getContext("bitmaprenderer").transferFromImageBitmap(this.canvas.transferToImageBitmap());
+      } catch { card.isDrawn = true; }
+      this.connection.send({ do: "seen", number: frame.number });
+      // a still is done when its steps are
+      if (!this.plays && (this.scene.isRun ? frame.step > 0 : frame.step >= Math.min(STILL_STEPS, this.scene.steps ?? STILL_STEPS))) {
+        card.isDrawn = true;
+        this.card = null;
+        this.next();
+      }
+    });
+  }
+}

@@ -1,0 +1,392 @@
+// The page as a whole: what is open, what the buttons and keys do, and what is shown where.
+
+import { Charts } from "./charts.js";
+import { Explanation } from "./explain.js";
+import { Gallery } from "./gallery.js";
+import { Pane } from "./pane.js";
+import { Panel } from "./panel.js";
+import { PairClock } from "./pair.js";
+import { all, clamp, drawn, element, isNumber, one, oncePerPicture, save, say, wantsCalm, withUnit, written } from "./words.js";
+
+const root = document.documentElement;
+const button = (name) => one(`[data-do=${name}]`);
+const at = { title: one("h1"), state: one("#state"), notice: one("#notice"), lost: one("#lost"), laboratory: one("#laboratory"),
+  screens: one(".screens"), scrub: one(".scrub"), time: one(".time"), speed: one(".speed"), seed: one(".seed"), loop: one(".loop"),
+  pace: one(".pace"), agent: one(".agent"), camera: one(".camera"), colour: one(".colour"), trails: one(".trails"), events: one("#events") };
+
+// the first pane is the one that panel, charts and time speak of; `active` is the one whose agent is explained
+let panes = [], active = null, given = null, clock = null, isOpen = "", program = "flockworks";
+const lead = () => panes[0] ?? null;
+const scene = () => lead()?.scene ?? null;
+const isRun = () => scene()?.isRun === true;
+
+// ------------------------------------------------ colours
+
+const KEY = "flockworks-colours";
+const preferred = matchMedia("(prefers-color-scheme: dark)");
+const isDark = () => (root.dataset.theme ?? (preferred.matches ? "dark" : "light")) === "dark";
+const showTheme = () => {
+  button("theme").setAttribute("aria-pressed", String(isDark()));
+  button("theme").setAttribute("aria-label", "Dark colours");
+  button("theme").textContent = isDark() ? "Light" : "Dark";
+  for (const pane of panes) pane.repaint();
+  charts.repaint();
+  gallery.repaint();
+};
+const switchTheme = () => {
+  root.dataset.theme = isDark() ? "light" : "dark";
+  try { localStorage.setItem(KEY, root.dataset.theme); } catch { /* it is forgotten, then */ }
+  showTheme();
+};
+
+// ------------------------------------------------ messages to the user
+
+const notice = (text) => { one("span", at.notice).textContent = text; at.notice.hidden = text === ""; };
+
+let lostUntil = 0, countdown = 0;
+function showConnection() {
+  clearInterval(countdown);
+  const lost = panes.filter(({ link }) => link?.state === "lost");
+  const isLost = panes.some(({ link }) => link?.state !== "open");
+  at.state.textContent = panes.length === 0 || !isLost ? program : lost.length ? "Connection lost" : "Connecting…";
+  root.dataset.connection = panes.length === 0 || !isLost ? "open" : lost.length ? "lost" : "connecting";
+  if (lost.length > 0) {
+    lostUntil = Date.now() + 1000 * Math.max(...lost.map(({ link }) => link.seconds));
+    const tell = () => {
+      const left = Math.max(0, Math.ceil((lostUntil - Date.now()) / 1000));
+      one("span", at.lost).textContent = `The connection to the server is lost; what you see is the last that came. Trying again${left > 0 ? ` in ${left}${"\u202f"}s` : ""}…`;
+    };
+    tell();
+    countdown = setInterval(tell, 1000);
+    at.lost.hidden = false;
+  } else if (!isLost) at.lost.hidden = true;
+}
+
+// ------------------------------------------------ parts
+
+const panel = new Panel(one("#parameters .controls"), (path, value) => { for (const pane of panes) pane.set(path, value); });
+const charts = new Charts(one(".charts"), (t) => seekTime(t));
+const explanation = new Explanation(one("#focal"));
+const gallery = new Gallery(one("#gallery"), (what) => { location.hash = what.gallery === undefined ? `given=${what.given}` : `gallery=${encodeURIComponent(what.gallery)}`; });
+
+const PANEL_PAUSE = 100;
+let shownAt = -Infinity, shownFor = "", pictures = 0, countedFrom = performance.now();
+
+const told = {
+  hello: (pane, hello) => {
+    program = hello.program;
+    given = hello.given;
+    showConnection();
+    if (pane.opened === null && pane.firstOpening) pane.open(pane.firstOpening);
+    else if (isOpen === "nothing") follow();
+  },
+  state: (pane, state, seconds) => { pane.link = { state, seconds }; showConnection(); },
+  problem: (pane, text) => { notice(text); if (!pane.scene) pane.show("This could not be opened."); },
+  scene: (pane, isSame) => {
+    notice("");
+    pane.drawing && (pane.drawing.withTrails = at.trails.checked);
+    if (pane !== lead()) { clock?.add(pane); return; }
+    showScene(pane.scene, isSame);
+    clock?.add(pane);
+    if (!isSame && !pane.restores && !pane.scene.isRun && !wantsCalm()) pane.send({ do: "play" });
+  },
+  status: (pane) => { if (pane === lead()) showStatus(); },
+  metrics: (pane, message) => {
+    const index = panes.indexOf(pane);
+    if (message.is === "metrics_all") charts.takeAll(index, message); else charts.add(index, message);
+  },
+  event: (pane, event) => {
+    if (pane !== lead()) return;
+    charts.addEvent(event);
+    showEvent(event);
+  },
+  file: (pane, text) => {
+    const name = pane.scene?.title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "") || "scenario";
+    save(`${name}.toml`, text, "application/toml");
+  },
+  drawn: (pane, now) => {
+    pictures += 1;
+    if (pane === lead()) {
+      if (pane.frame) {
+        const { frame } = pane;
+        at.time.replaceChildren(`t = ${withUnit(frame.time, pane.scene.units.time, 5)}`, element("small", { textContent: `step ${frame.step}${!pane.scene.isRun && pane.scene.steps !== null ? ` of ${pane.scene.steps}` : ""}` }));
+        at.time.dataset.step = frame.step;
+        charts.showNow(frame.time);
+        if (pane.scene.isRun && document.activeElement?.dataset?.scrubbing !== "yes") at.scrub.value = frameOf(frame.step);
+      }
+    }
+    if (pane === (active ?? lead())) showFocal(pane, now);
+  },
+  picked: (pane, agent) => { activate(pane); focus(agent); },
+};
+
+// ------------------------------------------------ what is shown
+
+const frameOf = (step) => Math.round((step - scene().fromStep) / scene().everySteps);
+
+function showScene(now, isSame) {
+  at.title.textContent = now.title;
+  document.title = `${now.title} · flockworks`;
+  one("#about .about").textContent = now.about;
+  root.dataset.kind = now.isRun ? "run" : "live";
+  charts.begin(now);
+  panel.show(now.controls);
+  one("#parameters").hidden = now.controls.length === 0;
+  button("save").hidden = now.isRun;
+  at.scrub.max = Math.max(0, now.frames - 1);
+  at.seed.value = now.seed ?? "";
+  at.agent.max = Math.max(0, now.agents - 1);
+  at.events.hidden = true;
+  one("ol", at.events).replaceChildren();
+  now.events.forEach(showEvent);
+  const duration = Math.max(1, (now.frames - 1) * now.everySteps);
+  one(".event-marks").replaceChildren(...now.events.map((event) => drawn("rect", { x: 1000 * (event.step - now.fromStep) / duration - 1, width: 3, height: 6 })));
+  const sample = (style, path) => { const svg = drawn("svg", { class: `sample ${style}`, viewBox: "-6 -5 13 10", "aria-hidden": "true" }); svg.append(drawn("path", { d: path })); return svg; };
+  const entries = (names, count) => names.map((name, index) => element("li", {}, sample(`s${index % 7}`, "M6 0L-5 4L-2.5 0L-5-4z"),
+    element("span", {}, name, count ? element("span", { className: "count", textContent: ` ${count[index]}` }) : "")));
+  const byLabel = at.colour.value === "label" && now.labels.length > 0;
+  one("#about .legend").replaceChildren(...(byLabel ? entries(now.labels[0].names, null)
+    : entries(now.groups.map((group) => (group.title && group.title !== group.name ? `${group.name}: ${group.title}` : group.name)), now.groups.map(({ count }) => `${count} agents`))));
+  one(".colouring").hidden = now.labels.length === 0;
+  if (!isSame) at.colour.replaceChildren(element("option", { value: "group", textContent: "by group" }), ...now.labels.map(({ column }) => element("option", { value: "label", textContent: `by ${column}` })));
+  at.speed.title = now.isRun ? "Frames per second" : "Steps per second that are wanted";
+  showStatus();
+}
+
+function showEvent(event) {
+  at.events.hidden = false;
+  one("ol", at.events).append(element("li", {}, element("span", { className: "when", textContent: `t = ${withUnit(event.t, scene().units.time, 5)}` }), ` ${event.what}`));
+}
+
+const LIVE_RATES = [1, 2, 5, 10, 20, 30, 60, 120, 250, 0], RUN_RATES = [1, 2, 5, 10, 20, 30, 60];
+const ICONS = { pause: "M3.5 2.5h3v11h-3zM9.5 2.5h3v11h-3z", play: "M4 2.5v11L13 8z", reverse: "M12 2.5v11L3 8z" };
+
+function showStatus() {
+  const pane = lead(), status = pane?.status ?? {};
+  const way = clock ? clock.way : status.playing ? (isRun() && status.rate < 0 ? -1 : 1) : 0;
+  for (const [name, sign, word] of [["play", 1, "Play"], ["reverse", -1, "Play backwards"]]) {
+    button(name).setAttribute("aria-pressed", String(way === sign));
+    button(name).setAttribute("aria-label", way === sign ? "Pause" : word);
+    one("path", button(name)).setAttribute("d", ICONS[way === sign ? "pause" : name]);
+  }
+  const rates = isRun() ? RUN_RATES : LIVE_RATES;
+  const rate = clock ? clock.rate : isNumber(status.rate) ? Math.abs(status.rate) : 30;
+  const offered = rates.includes(rate) ? rates : [...rates, rate].sort((a, b) => (a || Infinity) - (b || Infinity));
+  if (at.speed.dataset.rates !== `${isRun()}${offered}`) {
+    at.speed.dataset.rates = `${isRun()}${offered}`;
+    const word = isRun() ? "frames/s" : "steps/s";
+    at.speed.replaceChildren(...offered.map((value) => element("option", { value, textContent: value === 0 ? "as fast as possible" : `${written(value, 4)}\u202f${word}` })));
+  }
+  at.speed.value = String(rate);
+  at.camera.value = pane?.camera ?? "still";
+  if (pane) pane.loop = at.loop.checked;
+  showPace();
+}
+
+function showPace() {
+  const passed = (performance.now() - countedFrom) / 1000;
+  if (passed > 1) {
+    at.pace.dataset.pictures = (pictures / passed / Math.max(1, panes.length)).toFixed(1);
+    [pictures, countedFrom] = [0, performance.now()];
+  }
+  const { playing, reached } = lead()?.status ?? {};
+  const drawing = at.pace.dataset.pictures ? `${at.pace.dataset.pictures} pictures/s` : "";
+  at.pace.textContent = playing ? [isNumber(reached) && !isRun() ? `${written(reached, 3)} steps/s` : "", drawing].filter(Boolean).join(", ") : "";
+}
+
+/** The tables, not more often than one can read. */
+function showFocal(pane, now) {
+  const current = pane.focal === null ? null : pane.explanation;
+  if (current === null && pane.focal !== null) return;
+  const isPlaying = clock ? clock.way !== 0 : pane.status?.playing;
+  const camera = pane.drawing?.camera;
+  const key = current === null ? "nobody" : `${current.agent} ${current.step} ${camera?.isSpace ? [camera.turn, camera.tilt] : ""}`;
+  if (current !== null && key === shownFor && current === explanation.current) return;
+  if (key === shownFor && current === null) return;
+  if (isPlaying && current !== null && shownFor !== "nobody" && now - shownAt < PANEL_PAUSE) return;
+  [shownAt, shownFor, explanation.current] = [now, key, current];
+  explanation.show(current, pane);
+}
+
+// ------------------------------------------------ what is done
+
+function activate(pane) {
+  if (active && active !== pane && active.focal !== null) active.focus(null);
+  active = pane;
+  panes.forEach((one) => one.place.classList.toggle("active", panes.length > 1 && one === pane));
+}
+
+function focus(agent) {
+  const pane = active ?? lead();
+  if (!pane?.scene) return;
+  const isThere = agent !== null && agent >= 0 && agent < pane.scene.agents;
+  pane.focus(isThere ? agent : null);
+  if (!isThere && pane.camera === "agent") pane.setCamera("still");
+  at.agent.value = isThere ? agent : "";
+  at.agent.setAttribute("aria-invalid", String(agent !== null && !isThere));
+  say(isThere ? `Agent ${agent}` : "Nobody is explained");
+  showStatus();
+}
+const focusNext = (by) => {
+  const pane = active ?? lead(), count = pane?.scene?.agents ?? 0;
+  if (count > 0) focus(pane.focal === null ? (by > 0 ? 0 : count - 1) : (pane.focal + by + count) % count);
+};
+
+const toAll = (message) => { for (const pane of panes) pane.send(message); };
+const play = (way) => {
+  if (clock) { clock.run(clock.way === way ? 0 : way); return; }
+  const status = lead()?.status ?? {};
+  if (isRun()) {
+    const before = status.playing ? Math.sign(status.rate || 1) : 0;
+    if (before === way) { toAll({ do: "pause" }); return; }
+    toAll({ do: "speed", rate: way * Number(at.speed.value || 20) });
+    toAll({ do: "play" });
+  } else toAll({ do: status.playing ? "pause" : "play" });
+};
+const step = (count) => { if (clock) clock.step(count); else if (isRun() || count > 0) toAll({ do: "step", count }); };
+const seek = oncePerPicture((frame) => { if (clock) clock.seekFrame(frame); else toAll({ do: "seek", frame }); });
+const seekTime = (t) => { if (scene()) seek(clamp(frameOf(t / scene().step), 0, Math.max(0, scene().frames - 1))); };
+const reset = () => {
+  const seed = at.seed.valueAsNumber;
+  toAll({ do: "reset", seed: Number.isSafeInteger(seed) && seed >= 0 ? seed : null });
+};
+const forEachPane = (act) => panes.forEach(act);
+const follows = () => { const to = (lead()?.camera === "agent") ? "still" : "agent"; forEachPane((pane) => pane.setCamera(to)); showStatus(); };
+const flip = (box) => { box.checked = !box.checked; box.dispatchEvent(new Event("change")); };
+
+const acts = {
+  gallery: () => { location.hash = "all"; },
+  keys: () => one("#keys").showModal(),
+  theme: switchTheme,
+  dismiss: () => notice(""),
+  reconnect: () => forEachPane((pane) => pane.connection.again()),
+  first: () => { if (clock) clock.run(0); seek(0); },
+  last: () => { if (clock) clock.run(0); seek(Number(at.scrub.max)); },
+  back: () => step(-1), forth: () => step(1),
+  reverse: () => play(-1), play: () => play(1),
+  reset, fit: () => { forEachPane((pane) => { if (pane.camera !== "still") pane.camera = "still"; pane.fit(); }); showStatus(); },
+  save: () => lead()?.send({ do: "save" }),
+  previous: () => focusNext(-1), next: () => focusNext(1), nobody: () => focus(null),
+  closer: () => { (active ?? lead())?.closer(); showStatus(); },
+};
+for (const [name, act] of Object.entries(acts)) button(name).addEventListener("click", act);
+at.scrub.addEventListener("input", () => { if (clock) clock.run(0); else if (lead()?.status?.playing) toAll({ do: "pause" }); seek(Number(at.scrub.value)); });
+at.speed.addEventListener("change", () => {
+  const rate = Number(at.speed.value);
+  if (clock) clock.rate = rate;
+  else toAll({ do: "speed", rate: isRun() && lead()?.status?.rate < 0 ? -rate : rate });
+});
+at.loop.addEventListener("change", () => { if (clock) clock.loop = at.loop.checked; else toAll({ do: "loop", on: at.loop.checked }); showStatus(); });
+at.seed.addEventListener("keydown", (event) => { if (event.key === "Enter") reset(); });
+at.agent.addEventListener("input", () => focus(Number.isInteger(at.agent.valueAsNumber) ? at.agent.valueAsNumber : null));
+at.camera.addEventListener("change", () => forEachPane((pane) => pane.setCamera(at.camera.value)));
+at.trails.addEventListener("change", () => forEachPane((pane) => { if (pane.drawing) { pane.drawing.withTrails = at.trails.checked; pane.request(); } }));
+at.colour.addEventListener("change", () => {
+  forEachPane((pane) => { if (pane.drawing) { pane.drawing.byLabel = at.colour.value === "label"; pane.request(); } });
+  showScene(scene(), true);
+});
+
+// ------------------------------------------------ keys
+
+const KEYS = [
+  ["Space", "play or pause", { " ": () => acts.play() }],
+  ["B", "play a run backwards", { b: () => isRun() && acts.reverse() }],
+  ["→ and ←", "one step on; in a run, back as well", { ArrowRight: () => step(1), ArrowLeft: () => step(-1) }],
+  ["Page Up, Page Down", "ten steps", { PageDown: () => step(10), PageUp: () => step(-10) }],
+  ["Home, End", "first and last frame of a run", { Home: () => isRun() && acts.first(), End: () => isRun() && acts.last() }],
+  ["R", "back to the start", { r: () => !isRun() && reset() }],
+  ["L", "loop a run", { l: () => isRun() && flip(at.loop) }],
+  ["N, P", "next and previous agent", { n: acts.next, p: acts.previous }],
+  ["A", "type the number of an agent", { a: () => at.agent.focus() }],
+  ["F", "follow the agent with the camera", { f: follows }],
+  ["Z", "go near the agent", { z: acts.closer }],
+  ["Escape", "explain nobody; put a message away", { Escape: () => (at.notice.hidden ? focus(null) : notice("")) }],
+  ["+ and −, or the wheel", "zoom", { "+": () => forEachPane((pane) => pane.zoom(1.2)), "=": () => forEachPane((pane) => pane.zoom(1.2)), "-": () => forEachPane((pane) => pane.zoom(1 / 1.2)) }],
+  ["Shift and arrows, or drag", "move a flat view, turn a view in space", {}],
+  ["Shift and drag", "move a view in space", {}],
+  ["0", "see everything", { 0: acts.fit }],
+  ["T", "trails", { t: () => flip(at.trails) }],
+  ["S", "save the scenario", { s: () => !isRun() && acts.save() }],
+  ["M", "the gallery", { m: acts.gallery }],
+  ["D", "light or dark", { d: switchTheme }],
+  ["?", "this list", { "?": acts.keys }],
+];
+const TURNS = { ArrowLeft: [-14, 0], ArrowRight: [14, 0], ArrowUp: [0, -14], ArrowDown: [0, 14] };
+const keyed = Object.assign({}, ...KEYS.map(([, , does]) => does));
+one("#keys tbody").append(...KEYS.map(([key, what]) => element("tr", {}, element("th", { scope: "row", textContent: key }), element("td", { textContent: what }))));
+document.addEventListener("keydown", (event) => {
+  if (event.altKey || event.ctrlKey || event.metaKey || event.defaultPrevented || one("#keys").open) return;
+  const own = event.target.closest?.("input, select, textarea, button, summary");
+  // what a control does with a key by itself, it keeps
+  if (own?.matches("select, textarea, input[type=number]") && event.key !== "Escape") return;
+  if (own && ([" ", "Enter"].includes(event.key) || (own.matches("input[type=range]") && /^(Arrow|Page|Home|End)/.test(event.key)))) return;
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  const isGeneral = ["m", "d", "?"].includes(key);
+  if (at.laboratory.hidden && !isGeneral) return;
+  const turn = event.shiftKey ? TURNS[key] : null;
+  const act = turn ? () => forEachPane((pane) => pane.move(...turn)) : keyed[key];
+  if (!act) return;
+  event.preventDefault();
+  act();
+});
+
+// ------------------------------------------------ what is open
+
+function closePanes() {
+  clock?.end();
+  panes.forEach((pane) => pane.end());
+  [panes, active, clock] = [[], null, null];
+  explanation.show(null, null);
+  shownFor = "nobody";
+  at.agent.value = "";
+}
+
+function openPanes(openings) {
+  closePanes();
+  gallery.hide();
+  at.laboratory.hidden = false;
+  clock = openings.length > 1 ? new PairClock(() => panes, () => showStatus()) : null;
+  at.screens.classList.toggle("pair", openings.length > 1);
+  panes = openings.map((what, index) => {
+    const place = element("div", { className: "screen" });
+    at.screens.append(place);
+    const name = openings.length > 1 ? `Run ${index + 1}${given?.[what.given]?.name ? `: ${given[what.given].name}` : ""}` : "Scene";
+    if (openings.length > 1) place.append(element("p", { className: "name", textContent: name }));
+    const pane = new Pane(place, told, name);
+    pane.firstOpening = what;
+    return pane;
+  });
+  showStatus();
+}
+
+/** Opens what the address says; without a word, what the command line named, or else the gallery. */
+function follow() {
+  const words = new URLSearchParams(location.hash.slice(1));
+  const isPair = given?.length === 2 && given.every(({ kind }) => kind === "run");
+  const number = Number(words.get("given"));
+  const openings = words.has("gallery") ? [{ gallery: words.get("gallery") }]
+    : words.has("given") && Number.isInteger(number) ? [{ given: number }]
+      : words.has("all") ? [] : given === null ? null
+        : isPair ? [{ given: 0 }, { given: 1 }] : given.length === 1 ? [{ given: 0 }] : [];
+  // what the command line named, only the server knows
+  if (openings === null) { isOpen = "nothing"; openPanes([null]); return; }
+  isOpen = location.hash || "start";
+  // the connection that was made to ask what there is serves for it
+  const asking = panes.length === 1 && panes[0].opened === null && panes[0].firstOpening === null;
+  if (openings.length === 1 && asking && panes[0].connection.isOpen) { panes[0].open(openings[0]); return; }
+  if (openings.length > 0) { openPanes(openings); return; }
+  closePanes();
+  showConnection();
+  at.laboratory.hidden = true;
+  at.title.textContent = "flockworks";
+  document.title = "flockworks";
+  delete root.dataset.kind;
+  gallery.show(given ?? []);
+}
+
+try { if (["light", "dark"].includes(localStorage.getItem(KEY))) root.dataset.theme = localStorage.getItem(KEY); } catch { /* the system's colours, then */ }
+preferred.addEventListener("change", showTheme);
+addEventListener("hashchange", follow);
+setInterval(showPace, 1000);
+follow();
+showTheme();
