@@ -92,6 +92,7 @@ impl<R: Scalar, const D: usize> Stream<R, D> for NewModelName<R> {
     #[inline(always)]
     fn finish(&self, me: &mut Me<'_, R, D>, headings: &[R; D], _: &Draws<'_>) -> Motion<R, D> {
         me.note("neighbours", Vector(*headings));
+        me.sum(Vector(*headings));
         let wanted = Vector(*headings).unit_or(me.heading());
         Motion::new_velocity(wanted * self.speed, self.time_step)
     }

@@ -51,7 +51,7 @@ pub(super) enum Message<R, const D: usize> {
 
 /// Counts that are carried from one step to the next, and over a stop.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Carried {
+pub(crate) struct Carried {
     /// Contacts of each group since the last measurement.
     contacts: Vec<[u64; 3]>,
 }
@@ -64,7 +64,7 @@ impl Carried {
         self.contacts.iter().flatten().flat_map(|count| count.to_le_bytes()).collect()
     }
     /// What [`Self::to_bytes`] wrote before other bytes, and those.
-    pub(super) fn split(bytes: &[u8], groups: usize) -> Option<(Self, &[u8])> {
+    pub(crate) fn split(bytes: &[u8], groups: usize) -> Option<(Self, &[u8])> {
         let (own, rest) = bytes.split_at_checked(groups * 3 * 8)?;
         let counts: Vec<u64> =
             own.chunks_exact(8).map(|word| u64::from_le_bytes(core::array::from_fn(|k| word[k]))).collect();

@@ -40,7 +40,7 @@ pub const AXES: [&str; 3] = ["x", "y", "z"];
 pub(crate) const EVENTS: [&str; 4] = ["ate", "died", "obstacle_appeared", "obstacle_disappeared"];
 
 /// A unit as this scenario writes it: `length/time` becomes `m/s`.
-fn unit(of: &str, scenario: &Scenario) -> String {
+pub(crate) fn unit(of: &str, scenario: &Scenario) -> String {
     of.replace("length", &scenario.units.length).replace("time", &scenario.units.time)
 }
 

@@ -47,7 +47,17 @@ impl Log {
     /// # Errors
     /// Where the system refuses, or the file is no log.
     pub fn open(path: &Path) -> Result<(Self, Vec<Record>), StoreError> {
-        let open = OpenOptions::new().read(true).write(true).open(path);
+        Self::listed(path, OpenOptions::new().read(true).write(true))
+    }
+    /// As [`Self::open`], for a log that nothing will be written to.
+    ///
+    /// # Errors
+    /// Where the system refuses, or the file is no log.
+    pub fn open_to_read(path: &Path) -> Result<(Self, Vec<Record>), StoreError> {
+        Self::listed(path, OpenOptions::new().read(true))
+    }
+    fn listed(path: &Path, how: &OpenOptions) -> Result<(Self, Vec<Record>), StoreError> {
+        let open = how.open(path);
         let file = open.map_err(|error| StoreError::io("open", path, error))?;
         let mut reader = BufReader::with_capacity(1 << 16, &file);
         let mut mark = [0; MARK.len()];

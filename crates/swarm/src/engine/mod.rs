@@ -8,8 +8,8 @@ mod plan;
 mod step;
 mod world;
 
-pub(crate) use kernel::{Kernel, Listed, Stages, Streamed};
 pub use explain::Explanation;
+pub(crate) use kernel::{Kernel, Listed, Stages, Streamed};
 pub use kernel::{MotionNoise, Sensing};
 pub use plan::{Clock, Driver, GroupPlan, IndexChoice, Order, Phase, Placement, Start, WorldError, WorldPlan};
 pub use world::{Checkpoint, Group, World};

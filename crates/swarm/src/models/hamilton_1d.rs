@@ -110,7 +110,10 @@ impl<R: Scalar> Model<R, 1> for Hamilton1d<R> {
         for (name, gap) in [("own gap", own), ("gap on the left", left), ("gap on the right", right)] {
             me.value(name, gap, "length");
         }
-        me.either(["stay", "jump left", "jump right"], if jump < R::ZERO { 1 } else { usize::from(jump > R::ZERO) * 2 });
+        me.either(
+            ["stay", "jump left", "jump right"],
+            if jump < R::ZERO { 1 } else { usize::from(jump > R::ZERO) * 2 },
+        );
         Motion::step(Vector([jump]))
     }
 }

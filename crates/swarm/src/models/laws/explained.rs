@@ -88,15 +88,19 @@ fn near(a: &[f64], b: &[f64], tolerance: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance * size)
 }
 
-/// What must hold of an explanation by itself.
-fn consistent<R: Scalar>(told: &Explanation, what: &str) {
+/// What is wrong with an explanation by itself.
+fn inconsistent<R: Scalar>(told: &Explanation) -> Option<String> {
     let finite = |v: &[f64]| v.iter().all(|v| v.is_finite());
-    for component in &told.components {
-        assert!(finite(&component.vector), "{what}: {component:?}");
+    if let Some(component) = told.components.iter().find(|component| !finite(&component.vector)) {
+        return Some(format!("not finite: {component:?}"));
     }
     let members: usize = told.sets.iter().map(|set| set.members.len()).sum();
-    assert!(members == 0 || !told.components.is_empty(), "{what}: neighbours and no component");
-    assert!(told.decides || (members == 0 && told.components.is_empty()), "{what}: told though nothing is decided");
+    if members > 0 && told.components.is_empty() {
+        return Some("neighbours and no component".into());
+    }
+    if !told.decides && (members > 0 || !told.components.is_empty()) {
+        return Some("told though nothing is decided".into());
+    }
     if let Some(sum) = &told.sum {
         let mut added = vec![0.0; sum.len()];
         let mut size = 0.0f64;
@@ -107,19 +111,26 @@ fn consistent<R: Scalar>(told: &Explanation, what: &str) {
             }
         }
         let tolerance = if R::NAME == "f32" { 1e-5 } else { 1e-12 };
-        let wrong = added.iter().zip(sum).any(|(a, b)| (a - b).abs() > tolerance * size);
-        assert!(!wrong, "{what}: components add to {added:?}, not {sum:?}\n{:?}", told.components);
+        if added.iter().zip(sum).any(|(a, b)| (a - b).abs() > tolerance * size) {
+            return Some(format!("components add to {added:?}, not {sum:?}: {:?}", told.components));
+        }
     }
     if !told.choice.is_empty() {
         let total: f64 = told.choice.iter().map(|choice| choice.probability).sum();
         let chosen: Vec<_> = told.choice.iter().filter(|choice| choice.chosen).collect();
-        assert!((total - 1.0).abs() < 1e-12 && chosen.len() == 1, "{what}: {:?}", told.choice);
-        assert!(chosen[0].probability > 0.0, "{what}: {:?}", told.choice);
+        if (total - 1.0).abs() > 1e-12 || chosen.len() != 1 || chosen[0].probability <= 0.0 {
+            return Some(format!("{:?}", told.choice));
+        }
     }
     for set in &told.sets {
-        assert!(!set.acts || !set.members.is_empty(), "{what}: {} acts without members", set.name);
-        assert!(set.members.iter().all(|member| told.detected.contains(member)), "{what}: {}", set.name);
+        if set.acts && set.members.is_empty() {
+            return Some(format!("{} acts without members", set.name));
+        }
+        if !set.members.iter().all(|member| told.detected.contains(member)) {
+            return Some(format!("{} has members that were not detected", set.name));
+        }
     }
+    None
 }
 
 /// Explains some agents, then steps, and compares with a world in which nobody was explained.
@@ -157,7 +168,7 @@ where
                 R::NAME,
                 told.agent
             );
-            consistent::<R>(told, &what);
+            assert_eq!(inconsistent::<R>(told), None, "{what}");
             let place = |v: Vector<R, D>| v.0.map(|v| v.to_f64()).to_vec();
             let (position, velocity) = (place(twin.position(told.agent)), place(twin.velocity(told.agent)));
             assert_eq!((&told.performed.position, &told.performed.velocity), (&position, &velocity), "{what}");
@@ -258,7 +269,26 @@ fn what_happens_after_the_motion_is_told_and_taken_back() {
 #[test]
 fn who_is_not_there_is_not_explained() {
     let Some(entry) = LIST.first() else { unreachable!("there are models") };
-    let mut world =
-        world(plan::<f64, 2>(entry, Values::new(), Space::open(), positions(3, 1.0), velocities(3)));
+    let mut world = world(plan::<f64, 2>(entry, Values::new(), Space::open(), positions(3, 1.0), velocities(3)));
     assert!(world.explain(2).is_some() && world.explain(3).is_none());
+}
+
+/// The checks above can fail.
+#[test]
+fn a_wrong_explanation_is_noticed() {
+    let Some(entry) = LIST.iter().find(|e| e.card.id == "couzin_2002") else { unreachable!("couzin_2002 is listed") };
+    let mut school = world(plan::<f64, 2>(entry, noisy(entry), Space::open(), positions(20, 5.0), velocities(20)));
+    let Some(told) = school.explain(4) else { unreachable!("there are 20") };
+    assert_eq!(inconsistent::<f64>(&told), None);
+    let wrong = |change: &dyn Fn(&mut Explanation)| {
+        let mut told = told.clone();
+        change(&mut told);
+        inconsistent::<f64>(&told).is_some()
+    };
+    assert!(wrong(&|told| told.components.clear()));
+    assert!(wrong(&|told| told.components[0].vector[1] = f64::NAN));
+    assert!(wrong(&|told| told.sum = Some(vec![1e3, 0.0])));
+    assert!(wrong(&|told| told.choice[0].probability += 0.5));
+    assert!(wrong(&|told| told.detected.clear()));
+    assert!(wrong(&|told| told.decides = false));
 }
