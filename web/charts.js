@@ -162,7 +162,8 @@ export class Charts {
       pen.setLineDash([]);
     };
     pen.textAlign = "right";
-    for (const tick of ticks(low, high, tall > 110 ? 3 : 2)) {
+    const few = ticks(low, high, 2);
+    for (const tick of few.length > 1 ? few : ticks(low, high, 4)) {
       pen.strokeStyle = css("grid");
       pen.beginPath();
       pen.moveTo(LEFT, y(tick));
@@ -212,7 +213,8 @@ export class Charts {
         pen.arc(x(line.t[at]), y(v), 3, 0, 2 * Math.PI);
         pen.fill();
       }
-      return [lines.length > 1 && line.name ? `${line.name} ` : "", withUnit(v ?? null, metric.unit, 4)].join("");
+      // the unit stands once, at the end
+      return (lines.length > 1 && line.name ? `${line.name} ` : "") + (line === lines.at(-1) ? withUnit(v ?? null, metric.unit, 3) : written(v ?? null, 3));
     });
     const time = this.cursor === null ? "" : `t = ${withUnit(this.cursor, this.unit, 4)}: `;
     value.textContent = time + texts.join(" · ");

@@ -109,7 +109,7 @@ const told = {
     if (pane === lead()) {
       if (pane.frame) {
         const { frame } = pane;
-        at.time.replaceChildren(`t = ${withUnit(frame.time, pane.scene.units.time, 5)}`, element("small", { textContent: `step ${frame.step}${!pane.scene.isRun && pane.scene.steps !== null ? ` of ${pane.scene.steps}` : ""}` }));
+        at.time.replaceChildren(`t = ${withUnit(frame.time, pane.scene.units.time, 5)}`, element("small", { textContent: whereIs(pane.scene, frame.step) }));
         at.time.dataset.step = frame.step;
         charts.showNow(frame.time);
         if (pane.scene.isRun && document.activeElement?.dataset?.scrubbing !== "yes") at.scrub.value = frameOf(frame.step);
@@ -122,6 +122,7 @@ const told = {
 
 // ------------------------------------------------ what is shown
 
+const whereIs = (now, step) => (now.isRun ? `frame ${frameOf(step) + 1} of ${now.frames}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
 const frameOf = (step) => Math.round((step - scene().fromStep) / scene().everySteps);
 
 function showScene(now, isSame) {

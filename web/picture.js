@@ -3,7 +3,7 @@
 import { clamp, drawn, withUnit, written } from "./words.js";
 
 const ROUND = 64;
-const LETTER = 6.7, LINE = 15;
+const LETTER = 7.3, LINE = 15;
 const TAU = 2 * Math.PI;
 
 const length = (vector) => Math.hypot(...vector);
@@ -114,7 +114,7 @@ export function drawFigure(svg, explanation, view, units) {
       const rim = circle(unit(heading.map((value) => -value)), reach * Math.cos(half), reach * Math.sin(half));
       put("path", { d: pathOf(rim), class: "blind" });
       for (let k = 0; k < ROUND; k += 8) put("path", { d: pathOf([centre, rim[k]], false), class: "blind" });
-      labels.add("blind", at(heading.map((value) => -0.85 * reach * value)), [0, 1], "faint");
+      if (view.withLabels) labels.add("blind", at(heading.map((value) => -0.85 * reach * value)), [0, 1], "faint");
     }
   } else {
     put("path", { d: sector(0, reach, angle, opening), class: "region" });
@@ -149,7 +149,7 @@ export function drawFigure(svg, explanation, view, units) {
       labels.add(withUnit(distance, units.length, 3), there, add(there, centre, -1), "faint");
     }
   }
-  const body = view.radius(scale);
+  const body = view.radius(scale), gap = view.withLabels ? 4 : 1.5;
   const selected = new Set(sets.flatMap((set) => set.members.map(({ offset }) => offset.join())));
   const bodies = (list, style) => {
     if (!view.withBodies || list.length === 0) return;
@@ -165,14 +165,14 @@ export function drawFigure(svg, explanation, view, units) {
   };
   const ignored = explanation.detected.filter(({ offset }) => !selected.has(offset.join()));
   bodies(ignored, "ignored");
-  if (ignored.length > 0) put("path", { d: ignored.map(({ offset }) => mark(at(offset), body + 3, 0)).join(""), class: "detected" });
+  if (ignored.length > 0) put("path", { d: ignored.map(({ offset }) => mark(at(offset), body + gap - 1, 0)).join(""), class: "detected" });
   const links = sets.filter((set) => set.acts).flatMap((set) => set.members);
   if (links.length > 0) put("path", { d: links.map(({ offset }) => pathOf([centre, at(offset)], false)).join(""), class: "link" });
   sets.forEach((set, index) => {
     if (set.members.length === 0) return;
     const style = setStyle(set, index);
     bodies(set.members, style);
-    put("path", { d: set.members.map(({ offset }) => mark(at(offset), body + 4, index)).join(""), class: `member ${style}`, "data-set": set.name, "data-count": set.members.length });
+    put("path", { d: set.members.map(({ offset }) => mark(at(offset), body + gap, index)).join(""), class: `member ${style}`, "data-set": set.name, "data-count": set.members.length });
   });
 
   // ------------------------------------------------ what it makes of it
@@ -185,6 +185,7 @@ export function drawFigure(svg, explanation, view, units) {
   })());
   const arrow = (vector, full, arms, width, style, data) => {
     const tip = tipOf(vector, full, arms);
+    for (const part of [0.4, 0.65, 0.9]) labels.avoid([0, 1].map((axis) => centre[axis] + part * (tip[axis] - centre[axis])), 5);
     put("path", { d: arrowPath(centre, tip, width), class: `arrow ${style}`, ...data });
     return tip;
   };
