@@ -177,7 +177,8 @@ export class Drawing {
   constructor(canvas) {
     this.canvas = canvas;
     this.camera = new Camera();
-    this.gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
+    // shapes and lines have soft edges of their own, which cost less than samples
+    this.gl = canvas.getContext("webgl2", { antialias: false, alpha: false });
     if (this.gl === null) throw new Error("this browser does not draw with WebGL 2");
     Object.assign(this, { scene: null, frame: null, obstacles: [], items: [], colours: null, byLabel: false, withTrails: true });
     this.makeParts();
@@ -397,7 +398,7 @@ export class Drawing {
   smallest() {
     const agents = this.frame?.agents ?? 0;
     const zoomed = clamp(Math.sqrt(this.camera.scale / this.camera.fitted), 0.7, 2.2);
-    const size = agents > 20000 ? 2 : agents > 4000 ? 2.6 : agents > 800 ? 3.6 : 5.2;
+    const size = agents > 8000 ? 2 : agents > 3000 ? 2.6 : agents > 800 ? 3.6 : 5.2;
     return size * zoomed * (this.camera.wide < 500 ? 0.8 : 1) * (this.camera.isSpace ? 1.2 : 1);
   }
 
