@@ -222,7 +222,8 @@ export class Charts {
         pen.fill();
       }
       // the unit stands once, at the end
-      return (lines.length > 1 && line.name ? `${line.name} ` : "") + (line === lines.at(-1) ? withUnit(v ?? null, metric.unit, 3) : written(v ?? null, 3));
+      const whose = `${line.number > 0 ? `run ${line.number + 1}: ` : ""}${line.name}`;
+      return (lines.length > 1 && whose ? `${whose} ` : "") + (line === lines.at(-1) ? withUnit(v ?? null, metric.unit, 3) : written(v ?? null, 3));
     });
     const time = this.cursor === null ? "" : `t = ${withUnit(this.cursor, this.unit, 4)}: `;
     value.textContent = time + texts.join(" · ");

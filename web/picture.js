@@ -52,6 +52,12 @@ export const setMark = (size, index) => mark([0, 0], size, index);
 class Labels {
   constructor(wide, tall) { Object.assign(this, { wide, tall, taken: [], made: [] }); }
 
+  /** How much of a box covers what is there. */
+  covered(one) {
+    return this.taken.reduce((sum, other) => sum
+      + Math.max(0, Math.min(one[2], other[2]) - Math.max(one[0], other[0])) * Math.max(0, Math.min(one[3], other[3]) - Math.max(one[1], other[1])), 0);
+  }
+
   /** Keeps a point free of text. */
   avoid([x, y], size) { this.taken.push([x - size, y - size, x + size, y + size]); }
 
@@ -65,10 +71,19 @@ class Labels {
       middle[1] = clamp(middle[1], LINE / 2 + 3, this.tall - LINE / 2 - 3);
       return [middle[0] - across / 2, middle[1] - LINE / 2, middle[0] + across / 2, middle[1] + LINE / 2];
     };
-    const covered = (one) => this.taken.reduce((sum, other) => sum
-      + Math.max(0, Math.min(one[2], other[2]) - Math.max(one[0], other[0])) * Math.max(0, Math.min(one[3], other[3]) - Math.max(one[1], other[1])), 0);
+    const covered = (one) => this.covered(one);
     const tries = [[0, 0], [0, 10], [0, -10], [15, 0], [-15, 0], [0, 22], [0, -22], [30, 0], [-30, 0], [45, 0], [-45, 0]].map(([shift, aside]) => box(shift, aside));
-    const best = tries.reduce((least, one) => (covered(one) < covered(least) ? one : least));
+    this.put(text, tries.reduce((least, one) => (covered(one) < covered(least) ? one : least)), style);
+  }
+
+  /** Sets text over the spot where it covers least. */
+  addWithin(text, spots, style) {
+    const half = text.length * LETTER / 2;
+    const boxes = spots.map(([x, y]) => [x - half, y - LINE / 2, x + half, y + LINE / 2]);
+    this.put(text, boxes.reduce((least, one) => (this.covered(one) < this.covered(least) ? one : least)), style);
+  }
+
+  put(text, best, style) {
     this.taken.push(best);
     this.made.push(drawn("text", { x: (best[0] + best[2]) / 2, y: best[3] - 4, class: `label ${style}`, "text-anchor": "middle" }, text));
   }
@@ -214,7 +229,19 @@ export function drawFigure(svg, explanation, view, units) {
     if (away && length(away) > 0 && view.withLabels) put("path", { d: arrowPath(at(offset), tipOf(add(offset, unit(away), 0.16 * reach), 1, scale), 1.6), class: "arrow away" });
   }
   labels.avoid(centre, body + 8);
+  const marked = [...explanation.detected, ...sets.flatMap((set) => set.members)];
+  if (view.withLabels && marked.length < 200) for (const { offset } of marked) labels.avoid(at(offset), body + 2);
   for (const [text, tip, style] of captions) labels.add(text, tip, [tip[0] - centre[0], tip[1] - centre[1]], style);
+
+  // names of the zones last: they give way to everything else
+  if (view.withLabels && view.withBodies && !isSpace) {
+    sets.forEach((set, index) => {
+      const low = set.low ?? 0;
+      if (set.high === null || (set.high - low) * scale < LINE || set.high > reach * 1.001) return;
+      const spots = [-0.36, 0.36, -0.2, 0.2, 0].map((turn) => polar((low + set.high) / 2, angle + turn * opening));
+      labels.addWithin(set.name, spots, setStyle(set, index));
+    });
+  }
 
   // ------------------------------------------------ the agent itself
   const me = moves ? at(heading.map((value) => value * 0.02 * reach)) : null;
