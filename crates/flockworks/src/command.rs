@@ -3,7 +3,9 @@
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
-use crate::files::{self, CompletionsOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions, SchemaOptions};
+use crate::files::{
+    self, CompletionsOptions, ExplainOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions, SchemaOptions,
+};
 use crate::models::{ModelsOptions, models};
 use crate::run::{self, CheckOptions, ReportOptions, RunOptions};
 use crate::step::{StepOptions, step};
@@ -41,6 +43,8 @@ pub enum Command {
     New(KindOptions),
     /// Print the JSON schema of a kind of file, for editors, or the table of its keys.
     Schema(SchemaOptions),
+    /// Say what moved one agent of a recorded run: what it perceived, whom it selected, what each rule asked, as JSON.
+    Explain(ExplainOptions),
     /// Make the page of a complete run anew.
     Report(ReportOptions),
     /// Write the tables of a run in another form.
@@ -86,6 +90,7 @@ pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
         Command::Check(options) => run::check(options, out).map(|()| 0),
         Command::New(options) => files::new(options, out).map(|()| 0),
         Command::Schema(options) => files::schema(options, out).map(|()| 0),
+        Command::Explain(options) => files::explain(options, out).map(|()| 0),
         Command::Report(options) => run::report(options, out).map(|()| 0),
         Command::Export(options) => files::export(options, out).map(|()| 0),
         Command::Metrics(options) => files::metrics(options, out).map(|()| 0),

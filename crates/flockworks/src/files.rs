@@ -80,6 +80,19 @@ pub struct ExportOptions {
     pub out: Option<PathBuf>,
 }
 
+/// Options of `explain`.
+#[derive(Args, Debug)]
+pub struct ExplainOptions {
+    /// Folder of a complete run.
+    pub folder: PathBuf,
+    /// Number of the kept frame, from 0.
+    #[arg(long, value_name = "F")]
+    pub frame: u64,
+    /// Number of the agent in the world, from 0.
+    #[arg(long, value_name = "I")]
+    pub agent: u32,
+}
+
 /// Options of `completions`.
 #[derive(Args, Debug)]
 pub struct CompletionsOptions {
@@ -228,6 +241,16 @@ pub fn export(options: &ExportOptions, out: &mut dyn Write) -> Result<(), Fault>
         }
         writeln!(out, "{}: {} rows", target.display(), table.rows())?;
     }
+    Ok(())
+}
+
+/// Prints what an agent does in the step that begins at a frame, stage by stage, as JSON.
+///
+/// # Errors
+/// A folder that is of no complete run, a frame or an agent that is not there, or a reader that went away.
+pub fn explain(options: &ExplainOptions, out: &mut dyn Write) -> Result<(), Fault> {
+    let explanation = lab::explain::at(&options.folder, options.frame, options.agent)?;
+    writeln!(out, "{}", serde_json::to_string_pretty(&explanation).unwrap_or_default())?;
     Ok(())
 }
 

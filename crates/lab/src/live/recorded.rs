@@ -1,7 +1,7 @@
 //! A recorded run to scrub through.
 
 use super::{LiveError, Shown, metrics_json, obstacles, packed, space_json};
-use crate::run::{METRICS, TRAJECTORY, tables};
+use crate::run::{METRICS, TRAJECTORY};
 use crate::scenario::build::{self, Read, Schedule};
 use crate::store::StoreError;
 use crate::store::table::{Table, Values};
@@ -259,11 +259,8 @@ impl Shown for Recorded {
         Some(self.metrics.clone())
     }
     fn explain(&mut self, agent: u32) -> Result<Json, LiveError> {
-        if agent as usize >= self.agents {
-            return Err(LiveError::Request(format!("there is no agent {agent}")));
-        }
-        let _ = (&self.folder, tables::AXES);
-        Err(LiveError::Request("explanations are not wired yet".into()))
+        // computed again from the nearest full state, never stored
+        Ok(crate::explain::at(&self.folder, self.at, agent)?)
     }
     fn seek(&mut self, frame: u64) -> Result<(), LiveError> {
         self.at = frame.min(self.frames - 1);

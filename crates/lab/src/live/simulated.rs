@@ -205,10 +205,9 @@ where
         None
     }
     fn explain(&mut self, agent: u32) -> Result<Json, LiveError> {
-        if agent as usize >= self.world.frame().columns.len() {
-            return Err(LiveError::Request(format!("there is no agent {agent}")));
-        }
-        Err(LiveError::Request("explanations are not wired yet".into()))
+        let told = self.world.explain(agent);
+        let told = told.ok_or_else(|| LiveError::Request(format!("there is no agent {agent}")))?;
+        Ok(crate::explain::json(&told, &self.read.scenario))
     }
     fn seek(&mut self, _: u64) -> Result<(), LiveError> {
         Err(LiveError::Request("a simulation goes forward; record it with `flockworks run` to go back".into()))
