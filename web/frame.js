@@ -81,7 +81,7 @@ const perhapsVector = (value) => { try { return vector(value); } catch { return 
 function readControl(control) {
   if (typeof control.path !== "string" || !["number", "whole", "truth", "word"].includes(control.kind)) return null;
   return {
-    path: control.path, kind: control.kind, group: text(control.group), name: text(control.name, control.path),
+    path: control.path, kind: control.kind, group: text(control.group), name: text(control.name, control.path).replaceAll("_", " "),
     symbol: text(control.symbol), about: text(control.about), unit: text(control.unit),
     low: number(control.low), high: number(control.high), step: number(control.step),
     default: control.default ?? null, value: control.value ?? control.default ?? null,

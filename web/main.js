@@ -6,7 +6,7 @@ import { Gallery } from "./gallery.js";
 import { Pane } from "./pane.js";
 import { Panel } from "./panel.js";
 import { PairClock } from "./pair.js";
-import { all, clamp, drawn, element, isNumber, one, oncePerPicture, save, say, wantsCalm, withUnit, written } from "./words.js";
+import { all, clamp, drawn, element, isNumber, one, oncePerPicture, paragraphs, save, say, wantsCalm, withUnit, written } from "./words.js";
 
 const root = document.documentElement;
 const button = (name) => one(`[data-do=${name}]`);
@@ -122,7 +122,8 @@ const told = {
 
 // ------------------------------------------------ what is shown
 
-const whereIs = (now, step) => (now.isRun ? `frame ${frameOf(step) + 1} of ${now.frames}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
+// frames count from 0, as on the command line
+const whereIs = (now, step) => (now.isRun ? `step ${step}, frame ${frameOf(step)} of ${now.frames - 1}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
 const frameOf = (step) => Math.round((step - scene().fromStep) / scene().everySteps);
 
 const showTitle = () => {
@@ -133,7 +134,8 @@ const showTitle = () => {
 
 function showScene(now, isSame) {
   showTitle();
-  one("#about .about").textContent = now.about;
+  const [first = "", ...rest] = paragraphs(now.about).map((text) => element("p", { textContent: text }));
+  one("#about .about").replaceChildren(first, ...(rest.length ? [element("details", {}, element("summary", { textContent: "More" }), ...rest)] : []));
   root.dataset.kind = now.isRun ? "run" : "live";
   charts.begin(now);
   panel.show(now.controls);

@@ -45,6 +45,9 @@ export const drawn = (name, attributes = {}, text = null) => {
   return made;
 };
 
+/** The paragraphs of a text whose lines were broken by hand. */
+export const paragraphs = (text) => text.split(/\n\s*\n/).map((part) => part.replace(/\s+/g, " ").trim()).filter(Boolean);
+
 /** Tells those who listen instead of looking. */
 export const say = (text) => { one("#said").textContent = text; };
 
