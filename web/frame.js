@@ -156,6 +156,8 @@ export function readExplanation(value) {
     })),
     wanted: velocity(value.wanted),
     performed: velocity(value.performed),
+    // the unit of all components is told among the values
+    unit: text(objects(value.values).find((row) => row.name === "unit of the components")?.value),
     met: text(value.performed?.met, "nothing"),
   };
 }

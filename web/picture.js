@@ -1,6 +1,6 @@
 // The textbook figure of one agent's step: what it perceives, whom it selects, and the arrows its law adds up.
 
-import { clamp, drawn, withUnit, written } from "./words.js";
+import { clamp, drawn, withUnit } from "./words.js";
 
 const ROUND = 64;
 const LETTER = 7.3, LINE = 15;
@@ -223,7 +223,7 @@ export function drawFigure(svg, explanation, view, units) {
     const tip = arrow(part.vector, longest, arm, 3.6, `component ${componentStyle(index)}`, {
       "data-arrow": part.name, "data-magnitude": part.magnitude ?? length(part.vector),
     });
-    if (view.withLabels && isShown(tip)) captions.unshift([`${part.name} ${written(part.magnitude ?? length(part.vector), 3)}`, tip, componentStyle(index)]);
+    if (view.withLabels && isShown(tip)) captions.unshift([`${part.name} ${withUnit(part.magnitude ?? length(part.vector), explanation.unit, 3)}`, tip, componentStyle(index)]);
   });
   for (const { away, offset } of explanation.obstacles) {
     if (away && length(away) > 0 && view.withLabels) put("path", { d: arrowPath(at(offset), tipOf(add(offset, unit(away), 0.16 * reach), 1, scale), 1.6), class: "arrow away" });

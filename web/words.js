@@ -18,7 +18,8 @@ export const written = (value, digits = 7) => {
   return text.replace(/^-/, MINUS).replace("e-", `e${MINUS}`);
 };
 
-const isBare = (unit) => ["", "1"].includes((unit ?? "").trim());
+/** Whether a quantity is a bare number. */
+export const isBare = (unit) => ["", "1", "-"].includes((unit ?? "").trim());
 
 export const withUnit = (value, unit, digits = 7) => {
   const text = written(value, digits);
