@@ -24,7 +24,7 @@ export function readShape(shape) {
 const across = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 
 /** Triangles of a simple polygon in the plane, ear by ear; corners as indices. */
-export function ears(corners) {
+function ears(corners) {
   const area = corners.reduce((sum, [x, y], at) => {
     const [u, v] = corners[(at + 1) % corners.length];
     return sum + x * v - u * y;
