@@ -8,7 +8,7 @@ const SOON = 80;
 const LEFT = 44, RIGHT = 8, TOP = 8, BOTTOM = 20;
 
 /** Round values within a range, few. */
-export function ticks(low, high, most) {
+function ticks(low, high, most) {
   const raw = (high - low) / Math.max(1, most);
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((digit) => digit * power).find((size) => size >= raw * 0.999);

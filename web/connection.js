@@ -3,7 +3,7 @@
 const FIRST_PAUSE = 250, LONGEST_PAUSE = 5000, GROWTH = 1.7;
 
 /** Where the server's socket is, from where the page is. */
-export const socketAddress = () => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`;
+const socketAddress = () => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`;
 
 export class Connection {
   /**

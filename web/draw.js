@@ -242,7 +242,7 @@ export class Drawing {
   /** What never changes of the agents: whose they are, and how large. */
   uploadAgents() {
     const { scene } = this;
-    const groups = new Uint8Array(scene.agents).fill(7), radii = new Float32Array(scene.agents);
+    const groups = new Uint8Array(scene.agents).fill(255), radii = new Float32Array(scene.agents);
     scene.groups.forEach((group, index) => {
       groups.fill(index % 7, group.first, group.first + group.count);
       radii.fill(group.radius, group.first, group.first + group.count);
@@ -255,7 +255,9 @@ export class Drawing {
   /** The view of everything: the space where it ends, the agents where it does not. */
   fit() {
     const { space, dimensions } = this.scene;
-    this.camera.setBounds(dimensions, ...boundsOf(this.scene, this.frame));
+    const [low, high] = boundsOf(this.scene, this.frame);
+    this.ends = { low, high };
+    this.camera.setBounds(dimensions, low, high);
     this.camera.fit();
     this.hasView = this.frame !== null || space.edges.every((edge) => edge !== "open");
     this.upload();
@@ -271,8 +273,8 @@ export class Drawing {
 
   /** Obstacles, the floor and the edges of the space, as triangles and lines. */
   upload() {
-    if (!this.scene || !this.colours) return;
-    const { triangles, lines } = solids(this.scene, this.camera, this.obstacles, this.colours);
+    if (!this.ends || !this.colours) return;
+    const { triangles, lines } = solids(this.scene, this.ends, this.obstacles, this.colours);
     this.fill("solids", triangles);
     this.fill("lines", lines);
     this.counts.solids = triangles.length / 9;
@@ -424,9 +426,15 @@ export class Drawing {
     return best;
   }
 
-  /** The middle of the agents, of a sample of them. */
-  middleOfAgents() {
-    const bounds = this.frame ? boundsOfAgents(this.frame) : null;
-    return bounds && bounds[0].map((low, axis) => (axis < this.frame.dimensions ? (low + bounds[1][axis]) / 2 : 0));
+  /** Looks at the middle of the agents, and zooms when they no longer fit, or have become small. */
+  keepInView(zooms) {
+    const bounds = boundsOfAgents(this.frame), { camera } = this;
+    if (!bounds) return;
+    const flat = bounds.map((ends) => ends.map((end, axis) => (axis < this.frame.dimensions ? end : 0)));
+    camera.setBounds(this.frame.dimensions, ...flat);
+    camera.centre = camera.middle();
+    const fitting = camera.fittingScale();
+    camera.fitted = fitting;
+    if (zooms && (fitting < camera.scale || fitting > 2 * camera.scale)) camera.scale = 0.85 * fitting;
   }
 }

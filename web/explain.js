@@ -3,7 +3,7 @@
 import { componentStyle, drawFigure, reachOf, setMark, setStyle } from "./picture.js";
 import { drawn, element, one, withUnit, written } from "./words.js";
 
-const STAGES = ["sensing", "detection", "selection", "motion", "physics"];
+const STAGES = ["sensing", "detection", "selection", "motion", "physics", "state"];
 const vectorText = (vector, dimensions) => `(${vector.slice(0, dimensions).map((value) => written(value, 4)).join(", ")})`;
 const cell = (content, properties = {}) => element("td", properties, content);
 
@@ -45,7 +45,7 @@ export class Explanation {
       cell(`${set.members.length}${set.acts ? " · acts" : ""}`, { className: "number" })));
     const components = explanation.components.map((part, index) => element("tr", {},
       named(componentStyle(index), null, part.name), cell(vectorText(part.vector, scene.dimensions)),
-      cell(written(part.magnitude ?? Math.hypot(...part.vector)), { className: "number" })));
+      cell(withUnit(part.magnitude ?? Math.hypot(...part.vector), explanation.unit), { className: "number" })));
     const met = explanation.met === "nothing" ? "the way was free" : `met: ${explanation.met}`;
     const motions = [["now", explanation.velocity, ""], ["wanted", explanation.wanted, ""], ["performed", explanation.performed, met]]
       .filter(([, vector]) => vector !== null).map(([name, vector, note]) => element("tr", {},
@@ -73,7 +73,7 @@ export class Explanation {
       ` of ${explanation.group}, ${explanation.model}. Sensing ${sensing}: ${seen} detected${explanation.rays.length ? `, ${explanation.rays.length} rays` : ""}`
       + `${explanation.obstacles.length ? `, ${explanation.obstacles.length} points of obstacles` : ""}.`);
     const scales = element("p", { className: "note scales", textContent: [
-      facts.longest > 0 ? `Longest component: ${written(facts.longest, 3)}.` : "",
+      facts.longest > 0 ? `Longest component: ${withUnit(facts.longest, explanation.unit, 3)}.` : "",
       facts.fastest > 0 ? `Longest motion: ${withUnit(facts.fastest, speed, 3)}.` : ""].filter(Boolean).join(" ") });
     this.tables.replaceChildren(...[scales, summary,
       table("Sets", ["set", "where", "rule", "members"], sets, "sets"),

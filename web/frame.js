@@ -81,7 +81,7 @@ const perhapsVector = (value) => { try { return vector(value); } catch { return 
 function readControl(control) {
   if (typeof control.path !== "string" || !["number", "whole", "truth", "word"].includes(control.kind)) return null;
   return {
-    path: control.path, kind: control.kind, group: text(control.group), name: text(control.name, control.path),
+    path: control.path, kind: control.kind, group: text(control.group), name: text(control.name, control.path).replaceAll("_", " "),
     symbol: text(control.symbol), about: text(control.about), unit: text(control.unit),
     low: number(control.low), high: number(control.high), step: number(control.step),
     default: control.default ?? null, value: control.value ?? control.default ?? null,
@@ -156,6 +156,8 @@ export function readExplanation(value) {
     })),
     wanted: velocity(value.wanted),
     performed: velocity(value.performed),
+    // the unit of all components is told among the values
+    unit: text(objects(value.values).find((row) => row.name === "unit of the components")?.value),
     met: text(value.performed?.met, "nothing"),
   };
 }

@@ -5,7 +5,7 @@ import { Connection } from "./connection.js";
 import { boundsOf, readFrame, readScene } from "./frame.js";
 import { sketch } from "./sketch.js";
 import { readShape } from "./solids.js";
-import { colours, element, one, wantsCalm } from "./words.js";
+import { colours, element, one, paragraphs, wantsCalm } from "./words.js";
 
 // a still shows a scenario after so many steps, when something has happened
 const STILL_STEPS = 120;
@@ -50,7 +50,7 @@ export class Gallery {
   card(item) {
     const canvas = element("canvas", { width: WIDE, height: TALL });
     const facts = [item.dimensions ? `${item.dimensions}-D` : "", item.agents ? `${item.agents} agents` : "", ...(Array.isArray(item.models) ? item.models : [])];
-    const about = element("p", { textContent: item.about ?? "" });
+    const about = element("p", { textContent: paragraphs(String(item.about ?? ""))[0] ?? "" });
     const button = element("button", { type: "button", className: "open", textContent: item.title ?? item.id });
     const box = element("li", { className: "card" }, canvas, element("h3", {}, button), about, element("p", { className: "facts-of", textContent: facts.filter(Boolean).join(" · ") }));
     canvas.setAttribute("aria-hidden", "true");

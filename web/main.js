@@ -6,7 +6,7 @@ import { Gallery } from "./gallery.js";
 import { Pane } from "./pane.js";
 import { Panel } from "./panel.js";
 import { PairClock } from "./pair.js";
-import { all, clamp, drawn, element, isNumber, one, oncePerPicture, save, say, wantsCalm, withUnit, written } from "./words.js";
+import { all, clamp, drawn, element, isNumber, one, oncePerPicture, paragraphs, save, say, wantsCalm, withUnit, written } from "./words.js";
 
 const root = document.documentElement;
 const button = (name) => one(`[data-do=${name}]`);
@@ -15,7 +15,7 @@ const at = { title: one("h1"), state: one("#state"), notice: one("#notice"), los
   pace: one(".pace"), agent: one(".agent"), camera: one(".camera"), colour: one(".colour"), trails: one(".trails"), events: one("#events") };
 
 // the first pane is the one that panel, charts and time speak of; `active` is the one whose agent is explained
-let panes = [], active = null, given = null, clock = null, isOpen = "", program = "flockworks";
+let panes = [], active = null, given = null, clock = null, isAsking = false, program = "flockworks";
 const lead = () => panes[0] ?? null;
 const scene = () => lead()?.scene ?? null;
 const isRun = () => scene()?.isRun === true;
@@ -78,7 +78,7 @@ const told = {
     given = hello.given;
     showConnection();
     if (pane.opened === null && pane.firstOpening) pane.open(pane.firstOpening);
-    else if (isOpen === "nothing") follow();
+    else if (isAsking) follow();
   },
   state: (pane, state, seconds) => { pane.link = { state, seconds }; showConnection(); },
   problem: (pane, text) => { notice(text); if (!pane.scene) pane.show("This could not be opened."); },
@@ -112,7 +112,7 @@ const told = {
         at.time.replaceChildren(`t = ${withUnit(frame.time, pane.scene.units.time, 5)}`, element("small", { textContent: whereIs(pane.scene, frame.step) }));
         at.time.dataset.step = frame.step;
         charts.showNow(frame.time);
-        if (pane.scene.isRun && document.activeElement?.dataset?.scrubbing !== "yes") at.scrub.value = frameOf(frame.step);
+        if (pane.scene.isRun && !at.scrub.matches(":active")) at.scrub.value = frameOf(frame.step);
       }
     }
     if (pane === (active ?? lead())) showFocal(pane, now);
@@ -122,7 +122,8 @@ const told = {
 
 // ------------------------------------------------ what is shown
 
-const whereIs = (now, step) => (now.isRun ? `frame ${frameOf(step) + 1} of ${now.frames}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
+// frames count from 0, as on the command line
+const whereIs = (now, step) => (now.isRun ? `step ${step}, frame ${frameOf(step)} of ${now.frames - 1}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
 const frameOf = (step) => Math.round((step - scene().fromStep) / scene().everySteps);
 
 const showTitle = () => {
@@ -133,7 +134,8 @@ const showTitle = () => {
 
 function showScene(now, isSame) {
   showTitle();
-  one("#about .about").textContent = now.about;
+  const [first = "", ...rest] = paragraphs(now.about).map((text) => element("p", { textContent: text }));
+  one("#about .about").replaceChildren(first, ...(rest.length ? [element("details", {}, element("summary", { textContent: "More" }), ...rest)] : []));
   root.dataset.kind = now.isRun ? "run" : "live";
   charts.begin(now);
   panel.show(now.controls);
@@ -375,8 +377,8 @@ function follow() {
       : words.has("all") ? [] : given === null ? null
         : isPair ? [{ given: 0 }, { given: 1 }] : given.length === 1 ? [{ given: 0 }] : [];
   // what the command line named, only the server knows
-  if (openings === null) { isOpen = "nothing"; openPanes([null]); return; }
-  isOpen = location.hash || "start";
+  isAsking = openings === null;
+  if (isAsking) { openPanes([null]); return; }
   // the connection that was made to ask what there is serves for it
   const asking = panes.length === 1 && panes[0].opened === null && panes[0].firstOpening === null;
   if (openings.length === 1 && asking && panes[0].connection.isOpen) { panes[0].open(openings[0]); return; }

@@ -220,9 +220,9 @@ export class Pane {
 
   aim() {
     const { camera } = this.drawing;
-    const target = !this.frame ? null
-      : this.camera === "agent" && this.focal !== null ? vectorOf(this.frame.positions, this.frame, this.focal)
-        : this.camera === "flock" ? this.drawing.middleOfAgents() : null;
+    if (!this.frame) return;
+    if (this.camera === "flock") this.drawing.keepInView(!this.hasOwnZoom);
+    const target = this.camera === "agent" && this.focal !== null ? vectorOf(this.frame.positions, this.frame, this.focal) : null;
     if (target) camera.centre = target;
   }
 
@@ -261,9 +261,9 @@ export class Pane {
 
   repaint() { this.drawing?.setColours(colours()); this.request(); }
 
-  setCamera(mode) { this.camera = mode; this.request(); }
-  fit() { if (this.drawing && this.scene) { this.drawing.fit(); this.request(); } }
-  zoom(by, x, y) { if (this.drawing) { this.drawing.camera.zoom(by, x, y); this.request(); } }
+  setCamera(mode) { this.camera = mode; this.hasOwnZoom = false; this.request(); }
+  fit() { if (this.drawing && this.scene) { this.hasOwnZoom = false; this.drawing.fit(); this.request(); } }
+  zoom(by, x, y) { if (this.drawing) { this.hasOwnZoom = true; this.drawing.camera.zoom(by, x, y); this.request(); } }
   /** Moves what is seen by so much of the canvas: a flat view slides, a space turns. */
   move(across, down, slides = false) {
     if (!this.drawing) return;

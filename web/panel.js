@@ -1,6 +1,6 @@
 // The parameters of a scene as labelled controls: name, symbol, unit, range, help, and the way back to the default.
 
-import { all, element, isNumber, oncePerPicture, titled, withUnit, written } from "./words.js";
+import { element, isBare, isNumber, oncePerPicture, titled, withUnit, written } from "./words.js";
 
 const PARTS = 200;
 let counted = 0;
@@ -77,7 +77,7 @@ function made(control, set) {
       row.append(slider);
     }
     inputs.push(field);
-    row.append(field, element("span", { className: "unit", textContent: control.unit === "1" ? "" : control.unit }));
+    row.append(field, element("span", { className: "unit", textContent: isBare(control.unit) ? "" : control.unit }));
   } else if (control.kind === "truth") {
     const box = element("input", { type: "checkbox", id, ...shared });
     box.addEventListener("change", () => change(box.checked, box));
@@ -120,6 +120,4 @@ export class Panel {
     this.place.replaceChildren(...[...groups].map(([name, boxes], index) => element("details", { open: index < 2 || groups.size < 4 },
       element("summary", { textContent: name || "World" }), ...boxes)));
   }
-
-  get count() { return all(".control", this.place).length; }
 }

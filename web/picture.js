@@ -1,9 +1,9 @@
 // The textbook figure of one agent's step: what it perceives, whom it selects, and the arrows its law adds up.
 
-import { clamp, drawn, withUnit, written } from "./words.js";
+import { clamp, drawn, withUnit } from "./words.js";
 
 const ROUND = 64;
-const LETTER = 7.3, LINE = 15;
+const LETTER = 7.3, LINE = 15, FAR_AWAY = 14;
 const TAU = 2 * Math.PI;
 
 const length = (vector) => Math.hypot(...vector);
@@ -54,12 +54,12 @@ class Labels {
 
   /** How much of a box covers what is there. */
   covered(one) {
-    return this.taken.reduce((sum, other) => sum
-      + Math.max(0, Math.min(one[2], other[2]) - Math.max(one[0], other[0])) * Math.max(0, Math.min(one[3], other[3]) - Math.max(one[1], other[1])), 0);
+    return this.taken.reduce((sum, other) => sum + (other[4] ?? 1)
+      * Math.max(0, Math.min(one[2], other[2]) - Math.max(one[0], other[0])) * Math.max(0, Math.min(one[3], other[3]) - Math.max(one[1], other[1])), 0);
   }
 
-  /** Keeps a point free of text. */
-  avoid([x, y], size) { this.taken.push([x - size, y - size, x + size, y + size]); }
+  /** Keeps a point free of text, as far as that matters. */
+  avoid([x, y], size, weight = 1) { this.taken.push([x - size, y - size, x + size, y + size, weight]); }
 
   add(text, [x, y], direction, style) {
     const across = text.length * LETTER;
@@ -73,7 +73,9 @@ class Labels {
     };
     const covered = (one) => this.covered(one);
     const tries = [[0, 0], [0, 10], [0, -10], [15, 0], [-15, 0], [0, 22], [0, -22], [30, 0], [-30, 0], [45, 0], [-45, 0]].map(([shift, aside]) => box(shift, aside));
-    this.put(text, tries.reduce((least, one) => (covered(one) < covered(least) ? one : least)), style);
+    // a label that is far from its arrow is worse than one that covers a little
+    const costs = tries.map((one, index) => covered(one) + FAR_AWAY * index);
+    this.put(text, tries[costs.indexOf(Math.min(...costs))], style);
   }
 
   /** Sets text over the spot where it covers least. */
@@ -187,7 +189,7 @@ export function drawFigure(svg, explanation, view, units) {
     if (set.members.length === 0) return;
     const style = setStyle(set, index);
     bodies(set.members, style);
-    put("path", { d: set.members.map(({ offset }) => mark(at(offset), body + gap, index)).join(""), class: `member ${style}`, "data-set": set.name, "data-count": set.members.length });
+    put("path", { d: set.members.map(({ offset }) => mark(at(offset), body + gap, index)).join(""), class: `member ${style}${view.withLabels ? "" : " small"}`, "data-set": set.name, "data-count": set.members.length });
   });
 
   // ------------------------------------------------ what it makes of it
@@ -223,14 +225,14 @@ export function drawFigure(svg, explanation, view, units) {
     const tip = arrow(part.vector, longest, arm, 3.6, `component ${componentStyle(index)}`, {
       "data-arrow": part.name, "data-magnitude": part.magnitude ?? length(part.vector),
     });
-    if (view.withLabels && isShown(tip)) captions.unshift([`${part.name} ${written(part.magnitude ?? length(part.vector), 3)}`, tip, componentStyle(index)]);
+    if (view.withLabels && isShown(tip)) captions.unshift([`${part.name} ${withUnit(part.magnitude ?? length(part.vector), explanation.unit, 3)}`, tip, componentStyle(index)]);
   });
   for (const { away, offset } of explanation.obstacles) {
     if (away && length(away) > 0 && view.withLabels) put("path", { d: arrowPath(at(offset), tipOf(add(offset, unit(away), 0.16 * reach), 1, scale), 1.6), class: "arrow away" });
   }
   labels.avoid(centre, body + 8);
   const marked = [...explanation.detected, ...sets.flatMap((set) => set.members)];
-  if (view.withLabels && marked.length < 200) for (const { offset } of marked) labels.avoid(at(offset), body + 2);
+  if (view.withLabels && marked.length < 200) for (const { offset } of marked) labels.avoid(at(offset), body + 2, 0.25);
   for (const [text, tip, style] of captions) labels.add(text, tip, [tip[0] - centre[0], tip[1] - centre[1]], style);
 
   // names of the zones last: they give way to everything else

@@ -24,7 +24,7 @@ export function readShape(shape) {
 const across = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 
 /** Triangles of a simple polygon in the plane, ear by ear; corners as indices. */
-export function ears(corners) {
+function ears(corners) {
   const area = corners.reduce((sum, [x, y], at) => {
     const [u, v] = corners[(at + 1) % corners.length];
     return sum + x * v - u * y;
@@ -51,7 +51,8 @@ export function ears(corners) {
   return found;
 }
 
-export function solids(scene, camera, obstacles, colours) {
+/** `low` and `high` are the corners of what is shown of the space. */
+export function solids(scene, { low, high }, obstacles, colours) {
   const triangles = [], lines = [];
   const isSpace = scene.dimensions === 3;
   const triangle = (corners, normals, colour) => corners.forEach((corner, index) => triangles.push(...corner, ...(normals[index] ?? normals[0]), ...colour));
@@ -60,7 +61,6 @@ export function solids(scene, camera, obstacles, colours) {
   };
   const outline = (corners, colour, width) => corners.forEach((corner, at) => line(corner, corners[(at + 1) % corners.length], colour, width));
   const quad = (a, b, c, d, normal, colour) => { triangle([a, b, c], [normal], colour); triangle([a, c, d], [normal], colour); };
-  const { low, high } = camera;
   const corner = (bits) => [0, 1, 2].map((axis) => (bits >> axis & 1 ? high[axis] : low[axis]));
 
   const hasEnds = scene.space.edges.some((edge) => edge !== "open");

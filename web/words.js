@@ -18,7 +18,8 @@ export const written = (value, digits = 7) => {
   return text.replace(/^-/, MINUS).replace("e-", `e${MINUS}`);
 };
 
-const isBare = (unit) => ["", "1"].includes((unit ?? "").trim());
+/** Whether a quantity is a bare number. */
+export const isBare = (unit) => ["", "1", "-"].includes((unit ?? "").trim());
 
 export const withUnit = (value, unit, digits = 7) => {
   const text = written(value, digits);
@@ -44,6 +45,9 @@ export const drawn = (name, attributes = {}, text = null) => {
   if (text !== null) made.textContent = text;
   return made;
 };
+
+/** The paragraphs of a text whose lines were broken by hand. */
+export const paragraphs = (text) => text.split(/\n\s*\n/).map((part) => part.replace(/\s+/g, " ").trim()).filter(Boolean);
 
 /** Tells those who listen instead of looking. */
 export const say = (text) => { one("#said").textContent = text; };

@@ -147,7 +147,7 @@ class Flock {
       values: [{ stage: "sensing", name: "range", value: 2, unit: "m" }, { stage: "detection", name: "members detected", value: seen.length, unit: "" },
         { stage: "selection", name: "zone that decides", value: decides ? "repulsion" : "orientation and attraction", unit: "" },
         { stage: "motion", name: "angle of the wanted direction", value: Math.atan2(wanted[1] ?? 0, wanted[0]) * 180 / Math.PI, unit: "degrees" },
-        { stage: "motion", name: "turning", value: 12.345678, unit: "degrees" }, { stage: "physics", name: "displacement", value: STEP * length(third), unit: "m" }],
+        { stage: "motion", name: "unit of the components", value: "m/s", unit: "-" }, { stage: "motion", name: "turning", value: 12.345678, unit: "degrees" }, { stage: "physics", name: "displacement", value: STEP * length(third), unit: "m" }],
       choice: [{ name: "explore", probability: 0.2, chosen: false }, { name: "follow", probability: 0.7, chosen: true }, { name: "rest", probability: 0.1, chosen: false }],
       wanted: { velocity: wanted, displacement: scaled(wanted, STEP) },
       performed: { position: sum([position, scaled(third, STEP)], D), velocity: third, met: "nothing" },

@@ -25,6 +25,7 @@ parts! {
     "pane.js": "text/javascript; charset=utf-8";
     "panel.js": "text/javascript; charset=utf-8";
     "picture.js": "text/javascript; charset=utf-8";
+    "sketch.js": "text/javascript; charset=utf-8";
     "solids.js": "text/javascript; charset=utf-8";
     "trails.js": "text/javascript; charset=utf-8";
     "words.js": "text/javascript; charset=utf-8";
