@@ -1,7 +1,5 @@
 //! The command line `flockworks`.
 
-#![allow(clippy::print_stderr, reason = "the one place where messages are printed")]
-
 use clap::Parser;
 use flockworks::Fault;
 use flockworks::command::{Line, run};
@@ -11,7 +9,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     // a fault of ours is one message, never a backtrace
     std::panic::set_hook(Box::new(|panic| {
-        eprintln!("flockworks: this is our fault: {panic}");
+        let _ = writeln!(std::io::stderr(), "flockworks: this is our fault: {panic}");
         std::process::exit(70);
     }));
     let line = Line::parse();
@@ -23,8 +21,9 @@ fn main() -> ExitCode {
         Err(fault) => {
             match &fault {
                 Fault::Closed => {}
-                Fault::Shown(_) => eprintln!("{fault}"),
-                Fault::Input(_) | Fault::Ours(_) => eprintln!("flockworks: {fault}"),
+                // that nobody reads it any more is no fault
+                Fault::Shown(_) => drop(writeln!(std::io::stderr(), "{fault}")),
+                Fault::Input(_) | Fault::Ours(_) => drop(writeln!(std::io::stderr(), "flockworks: {fault}")),
             }
             ExitCode::from(fault.code())
         }

@@ -3,10 +3,14 @@
 /// The name nearest to `name` by edit distance, where one is near enough to have been meant: at most a third of the
 /// letters differ (two in short names), or one begins with the other.
 pub fn nearest<'a>(name: &str, among: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let length = name.chars().count();
-    let (distance, found) = among.map(|other| (distance(name, other), other)).min_by_key(|&(distance, _)| distance)?;
     let begins = |a: &str, b: &str| b.len() >= 3 && a.to_lowercase().starts_with(&b.to_lowercase());
-    (distance <= (length / 3).max(2).min(length.max(1)) || begins(found, name) || begins(name, found)).then_some(found)
+    let enough = (name.chars().count() / 3).max(2).min(name.chars().count());
+    let far = |other: &str| {
+        let distance = distance(name, other);
+        // one that begins like the other comes after every slip of the keys and before all else
+        if distance <= enough { Some(distance) } else { (begins(other, name) || begins(name, other)).then_some(usize::MAX) }
+    };
+    among.filter_map(|other| Some((far(other)?, other))).min_by_key(|&(far, _)| far).map(|(_, other)| other)
 }
 
 /// Levenshtein's distance, row by row, without regard to case.

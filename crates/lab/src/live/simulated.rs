@@ -193,11 +193,18 @@ where
             let values: Vec<Option<f64>> = self.metrics.iter().map(|metric| metric.on(sample)).collect();
             rows.push(json!({ "group": name, "values": values }));
         };
+        // the dead are not measured
+        let lives = |row: &usize| {
+            self.world.mortality().is_none_or(|column| frame.columns.state[column][*row] > R::ZERO)
+        };
+        let by_id = frame.rows_by_id();
+        let living = |ids: std::ops::Range<usize>| by_id[ids].iter().copied().filter(lives).collect::<Vec<_>>();
         for group in frame.groups {
-            push(&group.name, &Sample::group(&frame, group));
+            let ids = group.first as usize..(group.first + group.count) as usize;
+            push(&group.name, &Sample::of(&frame, &living(ids)));
         }
         if frame.groups.len() > 1 {
-            push(build::WHOLE_GROUP, &Sample::whole(&frame));
+            push(build::WHOLE_GROUP, &Sample::of(&frame, &living(0..by_id.len())));
         }
         Some(json!({ "is": "metrics", "step": frame.step, "t": frame.time, "rows": rows }))
     }

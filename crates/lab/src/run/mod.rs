@@ -132,7 +132,9 @@ fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), 
     let seed = request.seed.or(request.read.scenario.seed);
     let same = |manifest: &Json| {
         let kept = manifest.get("seed").and_then(Json::as_u64);
-        manifest.get("identity") == Some(identity) && (seed.is_none() || seed == kept)
+        // as text: the order of groups decides about ids and draws
+        let there = manifest.get("identity").map(Json::to_string);
+        there == Some(identity.to_string()) && (seed.is_none() || seed == kept)
     };
     if let Some(out) = &request.out {
         let manifest = folder::manifest(out)?;
@@ -142,6 +144,9 @@ fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), 
             let kept = manifest.get("seed").and_then(Json::as_u64);
             if let (Some(kept), Some(seed)) = (kept, seed.filter(|&seed| Some(seed) != kept)) {
                 lines.push(format!("seed: {kept} there, {seed} now"));
+            }
+            if lines.is_empty() {
+                lines.push("the same keys in another order, which decides about ids and draws".to_owned());
             }
             let more = lines.len().saturating_sub(8);
             lines.truncate(8);
@@ -194,7 +199,15 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     }
     let schedule = build::schedule(&request.read.scenario, request.quick)
         .map_err(|wrong| StoreError::Refused(format!("{}: {}", wrong.path, wrong.what)))?;
+    // what this seed makes impossible is found before anything is written
+    with_types!(request.read.scenario, R, D => build::plan::<R, D>(&request.read.scenario, seed, 1).map(|_| ()))
+        .map_err(|wrongs| impossible(seed, &wrongs))?;
     let folder = Folder::claim(&path)?;
+    // another process may have had the folder in the meantime
+    let before = folder::manifest(&path)?;
+    if before.as_ref().is_some_and(|manifest| manifest.get("status") == Some(&json!("complete"))) {
+        return Ok(outcome(End::Already, 0, 0.0));
+    }
     let agents: usize = request.read.scenario.group.0.iter().map(|(_, group)| group.count).sum();
     let threads = request.threads.unwrap_or_else(|| threads_for(agents));
     let mut manifest = before.unwrap_or_else(|| new_manifest(request, identity, seed, &schedule));
@@ -205,9 +218,18 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     manifest["status"] = json!("running");
     folder.write_manifest(&manifest)?;
     let began = Instant::now();
-    let (from, reached) = with_types!(request.read.scenario, R, D => {
-        execute::<R, D>(request, &folder, seed, threads, &schedule, watch)?
+    let executed = with_types!(request.read.scenario, R, D => {
+        execute::<R, D>(request, &folder, seed, threads, &schedule, watch)
     });
+    let (from, reached) = match executed {
+        Ok(reached) => reached,
+        Err(error) => {
+            manifest["status"] = json!("stopped");
+            // the first error is the one to tell
+            let _ = folder.write_manifest(&manifest);
+            return Err(error);
+        }
+    };
     let complete = reached == schedule.steps;
     let seconds = began.elapsed().as_secs_f64();
     let updates = agents as u64 * (reached - from);
@@ -231,6 +253,12 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     Ok(outcome(End::Complete, updates, seconds))
 }
 
+/// What cannot be with a seed, though it could with another.
+fn impossible(seed: u64, wrongs: &[build::Wrong]) -> StoreError {
+    let lines: Vec<String> = wrongs.iter().map(|wrong| format!("{}: {}", wrong.path, wrong.what)).collect();
+    StoreError::Refused(format!("with the seed {seed}: {}", lines.join("; ")))
+}
+
 fn new_manifest(request: &Request, identity: Json, seed: u64, schedule: &Schedule) -> Json {
     let sources = &request.read.sources;
     json!({
@@ -242,7 +270,7 @@ fn new_manifest(request: &Request, identity: Json, seed: u64, schedule: &Schedul
         "file": {
             "name": sources.name(0),
             "text": sources.text(0),
-            "set": (1..).map(|k| sources.text(k)).take_while(|text| !text.is_empty()).collect::<Vec<_>>(),
+            "set": sets(request),
         },
         "identity": identity,
         "schedule": {
@@ -258,6 +286,11 @@ fn new_manifest(request: &Request, identity: Json, seed: u64, schedule: &Schedul
     })
 }
 
+/// What was put over the file.
+fn sets(request: &Request) -> Vec<&str> {
+    (1..).map(|k| request.read.sources.text(k)).take_while(|text| !text.is_empty()).collect()
+}
+
 /// A name for the very program that runs: a checksum of its file.
 fn build_id() -> String {
     let bytes = std::env::current_exe().and_then(std::fs::read).unwrap_or_default();
@@ -269,7 +302,7 @@ fn build_id() -> String {
 fn block_steps(agents: u64, schedule: &Schedule) -> u64 {
     let agents = agents.max(1);
     let by_bytes = schedule.steps.saturating_mul(agents) / (GROWN_STATES / STATE_BYTES);
-    (BLOCK_UPDATES / agents).max(BLOCK_STEPS).max(by_bytes)
+    (BLOCK_UPDATES / agents).min(schedule.steps / 10).max(BLOCK_STEPS).max(by_bytes)
 }
 
 /// Steps the world from where it is to the end, or to where it is stopped; where it began, and how far it came.
@@ -285,10 +318,7 @@ where
     Models: Catalogue<R, D>,
 {
     let scenario = &request.read.scenario;
-    let plan = build::plan::<R, D>(scenario, seed, threads).map_err(|wrongs| {
-        let lines: Vec<String> = wrongs.iter().map(|wrong| format!("{}: {}", wrong.path, wrong.what)).collect();
-        StoreError::Refused(format!("with the seed {seed}: {}", lines.join("; ")))
-    })?;
+    let plan = build::plan::<R, D>(scenario, seed, threads).map_err(|wrongs| impossible(seed, &wrongs))?;
     let mut world = World::new(plan).map_err(|error| StoreError::Refused(format!("with the seed {seed}: {error}")))?;
     let growing = folder.file(GROWING);
     let (mut log, mut from, mut carried) = (None, 0, recorder::Carried::new(world.groups().len()));
@@ -420,5 +450,6 @@ fn notes(request: &Request, seed: u64) -> Vec<(String, String)> {
         ("flockworks.length_unit".into(), units.length.clone()),
         ("flockworks.time_unit".into(), units.time.clone()),
         ("flockworks.file".into(), request.read.sources.text(0).to_owned()),
+        ("flockworks.set".into(), sets(request).join("\n")),
     ]
 }

@@ -141,7 +141,8 @@ impl Observer {
         }
         for (obstacle, there) in &mut self.there {
             let plan = world.obstacles().list()[*obstacle].plan.as_ref();
-            let now = plan.is_none_or(|plan| plan.present(time));
+            // as the engine sees it, which counts time by adding steps
+            let now = plan.is_none_or(|plan| plan.present(world.time()));
             if now != *there {
                 events.push((step, time, if now { 2 } else { 3 }, -1, *obstacle as i64));
                 *there = now;

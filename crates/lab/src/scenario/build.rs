@@ -5,7 +5,7 @@ use crate::file::form::place_of;
 use crate::file::tree::{parse, parse_value};
 use crate::file::{Desk, Form, Node, Problem, Problems, Rule, Sources, Span};
 use space::obstacles::Obstacles;
-use space::{Edge, Real, Space, Vector};
+use space::{ColumnKind, Edge, Real, Space, Vector};
 use swarm::engine::{self as plan, GroupPlan, IndexChoice, Placement, WorldError, WorldPlan};
 use swarm::models::{Catalogue, Models};
 use swarm::parameters::{ParameterError, Scalar};
@@ -263,6 +263,23 @@ fn check(scenario: &Scenario) -> Vec<Wrong> {
     if scenario.group.0.is_empty() {
         wrongs.push(Wrong::new("group", "there is no group", "at least one [group.NAME]"));
     }
+    let groups = scenario.group.0.iter().map(|(name, _)| ("group", name));
+    for (kind, name) in groups.chain(scenario.scatter.0.iter().map(|(name, _)| ("scatter", name))) {
+        if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c)) {
+            let what = format!("`{name}` cannot be a name");
+            wrongs.push(Wrong::new(kind, what, "names have letters, digits, `_` and `-`"));
+        }
+    }
+    if let Driver::Asynchronous(clocks) = &scenario.time.driver {
+        if clocks.period < clocks.tick {
+            let what = format!("the period ({}) is shorter than a tick ({})", clocks.period, clocks.tick);
+            wrongs.push(Wrong::new("time.driver.asynchronous.period", what, "at least one tick"));
+        }
+        if clocks.clock == Clock::Poisson && clocks.jitter > 0.0 {
+            let what = "a clock at random times has no jitter";
+            wrongs.push(Wrong::new("time.driver.asynchronous.jitter", what, "leave it out, or use a regular clock"));
+        }
+    }
     for (name, group) in &scenario.group.0 {
         if name == WHOLE_GROUP {
             let what = format!("`{WHOLE_GROUP}` names everyone together in the tables");
@@ -511,6 +528,7 @@ where
     let default = Start::default();
     let start =
         group.start.as_ref().unwrap_or(&default).resolved(&surroundings).map_err(|wrong| wrong.below("start"))?;
+    states_in_range(id, &start)?;
     let mut plan = GroupPlan::new(name, id, values, group.count, Placement::Given(start));
     for (set, choice) in &group.select.0 {
         let choice = choice
@@ -528,6 +546,27 @@ where
         plan.radius = radius;
     }
     Ok(plan)
+}
+
+/// Refuses values of named states and counts that are none.
+fn states_in_range<R, const D: usize>(model: &str, start: &plan::Start<R, D>) -> Result<(), Wrong> {
+    let Some(entry) = swarm::models::find(model) else { return Ok(()) };
+    for column in (entry.columns)() {
+        let Some(values) = start.columns.get(column.name) else { continue };
+        let (fits, expected): (&dyn Fn(f64) -> bool, String) = match column.kind {
+            ColumnKind::Quantity => continue,
+            ColumnKind::Count => (&|v| v >= 0.0 && v.fract() == 0.0, "a whole number of 0 or more".to_owned()),
+            ColumnKind::Label(names) => {
+                let most = names.len() as f64;
+                (&move |v| v >= 0.0 && v < most && v.fract() == 0.0, format!("the place, from 0, in {}", names.join(", ")))
+            }
+        };
+        if let Some(wrong) = values.iter().find(|&&v| !fits(v)) {
+            let what = format!("`{}` cannot be {wrong}", column.name);
+            return Err(Wrong::new(format!("start.state.{}", column.name), what, expected));
+        }
+    }
+    Ok(())
 }
 
 /// The precision as a word.

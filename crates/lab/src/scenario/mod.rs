@@ -170,7 +170,7 @@ form! {
     /// A group of agents with one model.
     pub struct Group {
         /// Number of agents.
-        count: usize = need, "1", Within(0.0, 100_000_000.0);
+        count: usize = need, "1", Within(0.0, 20_000_000.0);
         /// The model, by its id, with the parameters that differ from their defaults.
         model: Model = need, "", Any;
         /// Where and how it begins; left out, anywhere in the space.

@@ -72,6 +72,50 @@ form! {
     }
 }
 
+impl Region {
+    /// The corners; wrongs carry paths below `path`.
+    pub(super) fn corners<R: Real, const D: usize>(
+        &self,
+        path: &str,
+    ) -> Result<(Vector<R, D>, Vector<R, D>), Wrong> {
+        let low: Vector<R, D> = at_path(&self.low, &format!("{path}.low"))?;
+        let high: Vector<R, D> = at_path(&self.high, &format!("{path}.high"))?;
+        if (0..D).any(|a| low[a] > high[a]) {
+            let what = "the lower corner lies above the upper one";
+            return Err(Wrong::new(format!("{path}.low"), what, "low must not exceed high on any axis"));
+        }
+        Ok((low, high))
+    }
+    /// The corners of a region that lies inside the space.
+    pub(super) fn inside<R: Real, const D: usize>(
+        &self,
+        space: &Space<R, D>,
+        path: &str,
+    ) -> Result<(Vector<R, D>, Vector<R, D>), Wrong> {
+        let (low, high) = self.corners(path)?;
+        inside(space, low, &format!("{path}.low"))?;
+        inside(space, high, &format!("{path}.high"))?;
+        Ok((low, high))
+    }
+}
+
+/// A place, if it lies inside the space.
+pub(super) fn inside<R: Real, const D: usize>(
+    space: &Space<R, D>,
+    place: Vector<R, D>,
+    path: &str,
+) -> Result<Vector<R, D>, Wrong> {
+    for a in 0..D {
+        if let Some(side) = space.side(a)
+            && !(place[a] >= R::ZERO && place[a] <= side)
+        {
+            let what = format!("{} lies outside the space, which goes from 0 to {side} on axis {a}", place[a]);
+            return Err(Wrong::new(path, what, "a place inside the space"));
+        }
+    }
+    Ok(place)
+}
+
 form! {
     /// A disc or sphere.
     pub struct BallRegion {
@@ -108,7 +152,7 @@ form! {
     /// One heading for all, with deviations.
     pub struct Common {
         /// Largest deviation, of azimuth and elevation each.
-        spread: f64 = [0.0], "deg", NonNegative;
+        spread: f64 = [0.0], "deg", Within(0.0, 180.0);
     }
 }
 
@@ -133,6 +177,9 @@ impl Start {
         &self,
         around: &Surroundings<'_, R, D>,
     ) -> Result<plan::Start<R, D>, Wrong> {
+        if self.spacing > 0.0 && matches!(self.place, Place::Points(_) | Place::Lattice(_)) {
+            return Err(Wrong::new("spacing", "the place says already how far apart they begin", "leave it out"));
+        }
         let position = self.positions(around)?;
         let velocity = self.velocities(around)?;
         let mut columns = BTreeMap::new();
@@ -155,7 +202,9 @@ impl Start {
                     return Err(Wrong::new("place.points", what, format!("expected {} points", around.count)));
                 }
                 let at = |(k, point): (usize, &Vec<f64>)| {
-                    vector(point).map_err(|what| Wrong::new(format!("place.points.{k}"), what, "a point of the space"))
+                    let path = format!("place.points.{k}");
+                    let point = vector(point).map_err(|what| Wrong::new(&path, what, "a point of the space"))?;
+                    inside(around.space, point, &path)
                 };
                 points.iter().enumerate().map(at).collect()
             }
@@ -170,7 +219,7 @@ impl Start {
                     let along = |a: usize| (k / side.pow(a as u32) % side) as f64 - middle;
                     centre + Vector(core::array::from_fn(|a| R::of(along(a) * lattice.spacing)))
                 };
-                Ok((0..around.count).map(place).collect())
+                (0..around.count).map(|k| inside(around.space, place(k), "place.lattice")).collect()
             }
             Place::Anywhere(_) => {
                 let mut high = Vector::ZERO;
@@ -185,16 +234,12 @@ impl Start {
                 self.scattered(around, low, high, |_| true, "place")
             }
             Place::Box(region) => {
-                let low: Vector<R, D> = at_path(&region.low, "place.box.low")?;
-                let high: Vector<R, D> = at_path(&region.high, "place.box.high")?;
-                if (0..D).any(|a| low[a] > high[a]) {
-                    let what = "the lower corner lies above the upper one";
-                    return Err(Wrong::new("place.box.low", what, "low must not exceed high on any axis"));
-                }
+                let (low, high) = region.inside(around.space, "place.box")?;
                 self.scattered(around, low, high, |_| true, "place.box")
             }
             Place::Ball(ball) => {
                 let centre: Vector<R, D> = at_path(&ball.centre, "place.ball.centre")?;
+                inside(around.space, centre, "place.ball.centre")?;
                 let radius = R::of(ball.radius);
                 let reach = Vector([radius; D]);
                 let inside = |p: Vector<R, D>| (p - centre).length_squared() <= radius * radius;
@@ -266,7 +311,10 @@ impl Start {
                 let speeds = speed.values(around.count, around.seed, "speed", around.first).map_err(|found| {
                     Wrong::new("speed", format!("{found} speeds for {} members", around.count), "one for each member")
                 })?;
-                speeds.into_iter().map(|v| R::of(v.max(0.0))).collect()
+                if let Some(least) = speeds.iter().copied().find(|&v| v < 0.0) {
+                    return Err(Wrong::new("speed", format!("a speed of {least} was drawn"), "0 or more"));
+                }
+                speeds.into_iter().map(R::of).collect()
             }
         };
         let headings = self.headings(around)?;

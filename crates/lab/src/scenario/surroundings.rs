@@ -109,6 +109,11 @@ impl Obstacle {
                 normal: point(&plane.normal, "plane.normal")?,
             },
         };
+        if let Shape::Segment { from, to } = &shape
+            && from == to
+        {
+            return Err(Wrong::new("shape.segment.to", "the segment has no length", "another point than `from`"));
+        }
         let shape = shape.checked().map_err(|error| Wrong::new("shape", error.to_string(), "not a possible shape"))?;
         if let (Some(appears), Some(disappears)) = (self.appears, self.disappears)
             && appears >= disappears
@@ -152,7 +157,7 @@ form! {
         /// Radius of each.
         radius: f64 = need, "length", Positive;
         /// How many.
-        count: Option<usize> = none, "1", NonNegative;
+        count: Option<usize> = none, "1", Within(0.0, 1_000_000.0);
         /// How much of the space they fill, in place of `count`.
         percent: Option<f64> = none, "%", Within(0.0, 60.0);
         /// How percent become a number.
@@ -179,8 +184,7 @@ impl Scatter {
         let radius = R::of(self.radius);
         let (mut low, mut high) = (Vector::<R, D>::ZERO, Vector::<R, D>::ZERO);
         if let Some(region) = &self.region {
-            low = vector(&region.low).map_err(|what| Wrong::new("region.low", what, format!("{D} numbers")))?;
-            high = vector(&region.high).map_err(|what| Wrong::new("region.high", what, format!("{D} numbers")))?;
+            (low, high) = region.inside(space, "region")?;
         }
         for a in 0..D {
             let side = space.side(a);
@@ -200,11 +204,7 @@ impl Scatter {
         }
         let mut clear = Vec::new();
         for (k, region) in self.keep_clear.iter().enumerate() {
-            let corner = |numbers: &[f64], which: &str| {
-                vector::<R, D>(numbers)
-                    .map_err(|what| Wrong::new(format!("keep_clear.{k}.{which}"), what, format!("{D} numbers")))
-            };
-            clear.push((corner(&region.low, "low")?, corner(&region.high, "high")?));
+            clear.push(region.corners(&format!("keep_clear.{k}"))?);
         }
         let count = self.number(space)?;
         let distance = radius + radius + R::of(self.gap);
@@ -259,7 +259,11 @@ impl Scatter {
             (_, CountLaw::WithoutFourThirds) => pi * self.radius.powi(3),
         };
         // halves are rounded up
-        Ok((percent / 100.0 * volume / own + 0.5).floor() as usize)
+        let count = (percent / 100.0 * volume / own + 0.5).floor();
+        if count > 1e6 {
+            return Err(Wrong::new("percent", format!("that would be {count:.0} obstacles"), "at most 1,000,000"));
+        }
+        Ok(count as usize)
     }
 }
 
@@ -301,7 +305,7 @@ form! {
     /// Food.
     pub struct Food {
         /// Number of items, placed anywhere in the space.
-        count: Option<usize> = none, "1", NonNegative;
+        count: Option<usize> = none, "1", Within(0.0, 1_000_000.0);
         /// Their places, in place of `count`.
         places: Option<Vec<Vec<f64>>> = none, "length", Any;
         /// An item nearer than this is consumed, by the nearest living agent.
@@ -324,7 +328,9 @@ impl Food {
         let items = match (self.count, &self.places) {
             (None, Some(places)) => {
                 let at = |(k, place): (usize, &Vec<f64>)| {
-                    vector(place).map_err(|what| Wrong::new(format!("places.{k}"), what, format!("{D} numbers")))
+                    let path = format!("places.{k}");
+                    let place = vector(place).map_err(|what| Wrong::new(&path, what, format!("{D} numbers")))?;
+                    super::start::inside(space, place, &path)
                 };
                 places.iter().enumerate().map(at).collect::<Result<_, _>>()?
             }

@@ -60,8 +60,14 @@ impl Log {
         let open = how.open(path);
         let file = open.map_err(|error| StoreError::io("open", path, error))?;
         let mut reader = BufReader::with_capacity(1 << 16, &file);
-        let mut mark = [0; MARK.len()];
-        if reader.read_exact(&mut mark).is_err() || mark != MARK {
+        let mut mark = Vec::new();
+        let read = Read::by_ref(&mut reader).take(MARK.len() as u64).read_to_end(&mut mark);
+        read.map_err(|error| StoreError::io("read", path, error))?;
+        if mark.len() < MARK.len() && MARK.starts_with(&mark) {
+            // it was stopped before its first record
+            return Ok((Self::create(path)?, Vec::new()));
+        }
+        if mark != MARK {
             return Err(StoreError::Damaged(format!("`{}` is no log of this program", path.display())));
         }
         let size = file.metadata().map_err(|error| StoreError::io("read", path, error))?.len();
@@ -174,6 +180,20 @@ mod tests {
             let (mut log, records) = Log::open(&path).unwrap();
             assert_eq!(log.read(&records[expected]).unwrap(), b"new");
         }
+    }
+
+    #[test]
+    fn a_log_stopped_before_its_first_record_is_an_empty_one() {
+        let path = place("begun");
+        for length in 0..MARK.len() {
+            std::fs::write(&path, &MARK[..length]).unwrap();
+            let (mut log, records) = Log::open(&path).unwrap();
+            assert!(records.is_empty());
+            log.append(1, b"x").unwrap();
+            assert_eq!(Log::open(&path).unwrap().1.len(), 1);
+        }
+        std::fs::write(&path, b"other").unwrap();
+        assert!(Log::open(&path).is_err());
     }
 
     #[test]
