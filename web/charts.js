@@ -4,6 +4,7 @@ import { clamp, colours, element, one, titled, withUnit, written } from "./words
 
 // beyond so many points every second one is dropped: the line looks the same
 const MOST_POINTS = 4000;
+const SOON = 80;
 const LEFT = 44, RIGHT = 8, TOP = 8, BOTTOM = 20;
 
 /** Round values within a range, few. */
@@ -77,7 +78,7 @@ export class Charts {
       pane.t = thinned(pane.t);
       for (const [name, lines] of pane.lines) pane.lines.set(name, lines.map(thinned));
     }
-    this.request();
+    this.requestSoon();
   }
 
   /** Takes all that was measured in a run. */
@@ -90,7 +91,7 @@ export class Charts {
   }
 
   addEvent(event) { this.events.push(event); this.request(); }
-  showNow(t) { if (t !== this.now) { this.now = t; this.request(); } }
+  showNow(t) { if (t !== this.now) { this.now = t; this.requestSoon(); } }
   point(t) { this.cursor = t; this.request(); }
 
   key(event) {
@@ -121,6 +122,13 @@ export class Charts {
     if (this.waits) return;
     this.waits = true;
     requestAnimationFrame(() => { this.waits = false; if (!this.place.hidden) this.draw(); });
+  }
+
+  /** For what comes with every frame: the charts need not be as quick as the scene. */
+  requestSoon() {
+    if (this.comes) return;
+    this.comes = true;
+    setTimeout(() => { this.comes = false; this.request(); }, SOON);
   }
 
   repaint() { this.request(); }
@@ -162,7 +170,8 @@ export class Charts {
       pen.setLineDash([]);
     };
     pen.textAlign = "right";
-    for (const tick of ticks(low, high, tall > 110 ? 3 : 2)) {
+    const few = ticks(low, high, 2);
+    for (const tick of few.length > 1 ? few : ticks(low, high, 4)) {
       pen.strokeStyle = css("grid");
       pen.beginPath();
       pen.moveTo(LEFT, y(tick));
@@ -212,7 +221,9 @@ export class Charts {
         pen.arc(x(line.t[at]), y(v), 3, 0, 2 * Math.PI);
         pen.fill();
       }
-      return [lines.length > 1 && line.name ? `${line.name} ` : "", withUnit(v ?? null, metric.unit, 4)].join("");
+      // the unit stands once, at the end
+      const whose = `${line.number > 0 ? `run ${line.number + 1}: ` : ""}${line.name}`;
+      return (lines.length > 1 && whose ? `${whose} ` : "") + (line === lines.at(-1) ? withUnit(v ?? null, metric.unit, 3) : written(v ?? null, 3));
     });
     const time = this.cursor === null ? "" : `t = ${withUnit(this.cursor, this.unit, 4)}: `;
     value.textContent = time + texts.join(" · ");

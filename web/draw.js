@@ -1,13 +1,14 @@
 // The drawing of a scene with WebGL 2: agents, obstacles, edges and food, each kind with one call.
 
 import { Camera } from "./camera.js";
+import { boundsOf, boundsOfAgents } from "./frame.js";
 import { solids } from "./solids.js";
 import { Trails } from "./trails.js";
 import { clamp } from "./words.js";
 
-// beyond so many agents, arrowheads are drawn without a contour and smaller
+// beyond so many agents, arrowheads are drawn without a contour
 const MANY = 5000;
-const NEAR_ENOUGH = 26;
+const NEAR_ENOUGH = 26, LARGEST = 200;
 const MOST_PIXELS_PER_UNIT = 2;
 
 const COMMON = `#version 300 es
@@ -28,105 +29,118 @@ in vec4 tint;
 out vec4 colour;
 void main() { colour = vec4(tint.rgb * tint.a, tint.a); }`;
 
-// an arrowhead in the plane, or a disc at rest; drawn twice for a contour
-const FLAT = COMMON + `
-layout(location=0) in vec4 shape;
-layout(location=1) in float contour;
-layout(location=2) in vec3 place;
-layout(location=3) in vec3 heading;
-layout(location=4) in uint series;
-layout(location=5) in float radius;
-uniform float scale, smallest;
-out vec4 tint;
-void main() {
-  if (isMissing(place)) { gl_Position = NOWHERE; return; }
-  vec2 ahead = heading.xy;
-  float half_length = clamp(radius * scale, smallest, 400.0);
-  float moves = length(ahead);
-  vec2 at = moves > 0.5 ? mat2(ahead, vec2(-ahead.y, ahead.x)) * shape.xy : 0.65 * shape.zw;
-  vec2 grown = contour > 0.5 ? at * half_length + 1.1 * normalize(at) : at * half_length;
-  gl_Position = world * vec4(place, 1.0);
-  gl_Position.xy += grown * 2.0 / screen;
-  tint = vec4(contour > 0.5 ? stage : coloured(series), 1.0);
-}`;
-
-// a dart in space, a tetrahedron at rest
-const DART = COMMON + `
-layout(location=0) in vec3 corner;
-layout(location=1) in vec3 normal;
-layout(location=2) in vec3 place;
-layout(location=3) in vec3 heading;
-layout(location=4) in uint series;
-layout(location=5) in float radius;
-uniform float scale, smallest, distance_to_centre;
-uniform vec3 light;
-out vec4 tint;
+// An agent is a point, and its shape is found for each pixel: where WebGL is computed by software, instances of a shape
+// cost a hundred times as much.
+const AGENT = COMMON + `
+layout(location=0) in vec3 place;
+layout(location=1) in vec3 heading;
+layout(location=2) in uint series;
+layout(location=3) in float radius;
+uniform vec3 across, up;
+uniform float scale, smallest, largest, ratio, nearness, contour;
+out vec3 tint;
+flat out vec4 shape;
+flat out float size;
 void main() {
   vec4 at = world * vec4(place, 1.0);
-  if (isMissing(place) || at.w < 0.06 * distance_to_centre) { gl_Position = NOWHERE; return; }
-  float size = max(radius, smallest / scale);
+  if (isMissing(place) || at.w < 0.06 * nearness) { gl_Position = NOWHERE; gl_PointSize = 1.0; return; }
+  // things shrink with their distance; in a flat view nearness is 1, and so is w
+  float closer = nearness / at.w;
+  float half_length = min(max(radius * scale, smallest) * closer, largest);
+  vec2 ahead = vec2(dot(heading, across), dot(heading, up));
+  float seen = length(ahead);
   bool moves = dot(heading, heading) > 0.25;
-  vec3 ahead = moves ? normalize(heading) : vec3(0.0, 0.0, 1.0);
-  vec3 aside = normalize(cross(ahead, abs(ahead.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
-  mat3 turned = mat3(ahead, aside, cross(aside, ahead));
-  gl_Position = world * vec4(place + turned * (moves ? corner : corner * vec3(0.6, 1.0, 1.0)) * size, 1.0);
-  float lit = 0.72 + 0.28 * dot(turned * normal, light);
-  tint = vec4(paler(coloured(series) * lit, at.w), 1.0);
+  size = (2.0 * half_length + 2.0 * contour + 1.0) * 1.02;
+  shape = vec4(seen > 1e-3 ? ahead / seen : vec2(1.0, 0.0), half_length, moves ? max(seen, 0.4) : 0.0);
+  gl_Position = at;
+  gl_PointSize = size * ratio;
+  tint = paler(coloured(series), at.w);
+}`;
+const AGENT_FRAGMENT = `#version 300 es
+precision highp float;
+in vec3 tint;
+flat in vec4 shape;
+flat in float size;
+uniform vec3 stage;
+uniform float contour, fog;
+out vec4 colour;
+void main() {
+  vec2 at = (gl_PointCoord - 0.5) * vec2(size, -size);
+  vec2 own = vec2(dot(at, shape.xy), dot(at, vec2(-shape.y, shape.x))) / shape.z;
+  float outside;
+  vec3 shade = tint;
+  if (shape.w > 0.0) {
+    // an arrowhead with its notch at the back, shorter where it points at the eye or away
+    vec2 half_shape = vec2(own.x / shape.w, abs(own.y));
+    outside = max(dot(half_shape - vec2(1.0, 0.0), vec2(0.3534, 0.9355)), dot(half_shape + vec2(0.4, 0.0), vec2(-0.862, -0.507)));
+    if (fog > 0.0) shade *= own.y * (shape.x + shape.y) > 0.0 ? 1.06 : 0.8;
+  } else outside = length(own) - 0.6;
+  outside *= shape.z;
+  float cover = clamp(0.5 - outside + contour, 0.0, 1.0);
+  if (cover < 0.05) discard;
+  colour = vec4(mix(stage, shade, contour > 0.0 ? clamp(0.5 - outside, 0.0, 1.0) : 1.0) * cover, cover);
 }`;
 
-// lines so many units of the screen wide, dashed if asked
-const WIDE_LINE = `
-vec4 widened(vec4 from, vec4 to, vec2 corner, float width, out float along) {
-  vec2 start = from.xy / from.w * screen * 0.5, end = to.xy / to.w * screen * 0.5;
-  vec2 way = end - start;
-  float length_of_way = max(length(way), 1e-6);
-  vec2 direction = way / length_of_way;
-  vec2 at = mix(start, end, corner.x) + vec2(-direction.y, direction.x) * corner.y * width * 0.5;
-  along = corner.x * length_of_way;
-  vec4 end_here = corner.x < 0.5 ? from : to;
-  return vec4(at * 2.0 / screen, end_here.z / end_here.w, 1.0);
-}`;
-const LINE = COMMON + WIDE_LINE + `
-layout(location=0) in vec2 corner;
-layout(location=1) in vec3 start;
-layout(location=2) in vec3 end;
-layout(location=3) in vec3 line_colour;
-layout(location=4) in vec2 width_and_dash;
+// lines so many units of the screen wide, dashed if asked; each is two triangles
+const LINE = COMMON + `
+layout(location=0) in vec3 start;
+layout(location=1) in vec3 end;
+layout(location=2) in vec3 line_colour;
+layout(location=3) in vec2 width_and_dash;
+layout(location=4) in vec2 corner;
 out vec4 tint;
 out float along;
+out float aside;
 out float dash;
 void main() {
   vec4 from = world * vec4(start, 1.0), to = world * vec4(end, 1.0);
   dash = width_and_dash.y;
-  along = 0.0;
   if (from.w <= 0.01 || to.w <= 0.01) { gl_Position = NOWHERE; return; }
-  gl_Position = widened(from, to, corner, width_and_dash.x, along);
-  tint = vec4(line_colour, 1.0);
+  vec2 first = from.xy / from.w * screen * 0.5, last = to.xy / to.w * screen * 0.5;
+  float length_of_way = max(length(last - first), 1e-6);
+  vec2 direction = (last - first) / length_of_way;
+  float reach = width_and_dash.x * 0.5 + 0.5;
+  vec4 here = corner.x < 0.5 ? from : to;
+  vec2 at = mix(first, last, corner.x) + vec2(-direction.y, direction.x) * corner.y * reach;
+  along = corner.x * length_of_way;
+  aside = corner.y * reach;
+  gl_Position = vec4(at * 2.0 / screen, here.z / here.w, 1.0);
+  tint = vec4(line_colour, reach);
 }`;
 const LINE_FRAGMENT = `#version 300 es
-precision mediump float;
+precision highp float;
 in vec4 tint;
 in float along;
+in float aside;
 in float dash;
 out vec4 colour;
-void main() { if (dash > 0.0 && mod(along, 2.0 * dash) > dash) discard; colour = tint; }`;
+void main() {
+  if (dash > 0.0 && mod(along, 2.0 * dash) > dash) discard;
+  float cover = clamp(tint.a - abs(aside), 0.0, 1.0);
+  colour = vec4(tint.rgb * cover, cover);
+}`;
 
-const TRAIL = COMMON + WIDE_LINE + `
-layout(location=0) in vec2 corner;
-layout(location=1) in vec3 start;
-layout(location=2) in vec3 end;
-layout(location=4) in uint series;
+// a trail's line is left out where it would cross the whole space; its last end knows that
+const TRAIL = COMMON + `
+layout(location=0) in vec3 place;
+layout(location=1) in vec3 before;
+layout(location=2) in uint series;
 uniform vec3 longest;
-uniform float strength;
+uniform int agents, head, slots, drawn;
+flat out float is_broken;
 out vec4 tint;
 void main() {
-  if (isMissing(start) || isMissing(end) || any(greaterThan(abs(end - start), longest))) { gl_Position = NOWHERE; return; }
-  vec4 from = world * vec4(start, 1.0), to = world * vec4(end, 1.0);
-  if (from.w <= 0.01 || to.w <= 0.01) { gl_Position = NOWHERE; return; }
-  float along;
-  gl_Position = widened(from, to, corner, 1.3, along);
-  tint = vec4(paler(coloured(series), to.w), strength);
+  is_broken = isMissing(place) || isMissing(before) || any(greaterThan(abs(place - before), longest)) ? 1.0 : 0.0;
+  gl_Position = isMissing(place) ? NOWHERE : world * vec4(place, 1.0);
+  int age = (head - gl_VertexID / agents + 2 * slots) % slots;
+  tint = vec4(paler(coloured(series), gl_Position.w), 0.5 * max(0.06, 1.0 - float(age) / float(drawn + 1)));
 }`;
+const TRAIL_FRAGMENT = `#version 300 es
+precision mediump float;
+flat in float is_broken;
+in vec4 tint;
+out vec4 colour;
+void main() { if (is_broken > 0.5) discard; colour = vec4(tint.rgb * tint.a, tint.a); }`;
 
 const SOLID = COMMON + `
 layout(location=0) in vec3 place;
@@ -159,34 +173,12 @@ void main() {
   colour = vec4(out_of_middle > 0.62 ? tint.rgb : filling, 1.0);
 }`;
 
-// as many corners as the disc has; the last ones add nothing
-const ARROW = [[-0.8, 0.68], [1, 0], [-0.4, 0], ...Array(5).fill([-0.8, -0.68])];
-// a strip over a regular octagon zigzags between its two sides
-const OCTAGON = [3, 4, 2, 5, 1, 6, 0, 7].map((at) => [Math.cos((at + 0.5) * Math.PI / 4), Math.sin((at + 0.5) * Math.PI / 4)]);
-
-function flatShape() {
-  const part = (contour) => ARROW.map((corner, index) => [...corner, ...OCTAGON[index], contour]);
-  const [back, front] = [part(1), part(0)];
-  return new Float32Array([...back, back.at(-1), front[0], ...front].flat());
-}
-
-function dartShape() {
-  const tip = [1.15, 0, 0];
-  const tail = [0, 1, 2].map((at) => [-0.75, 0.62 * Math.cos(at * 2.0944), 0.62 * Math.sin(at * 2.0944)]);
-  const faces = [[tip, tail[0], tail[1]], [tip, tail[1], tail[2]], [tip, tail[2], tail[0]], [tail[0], tail[2], tail[1]]];
-  const normal = ([a, b, c]) => {
-    const [u, v] = [b, c].map((corner) => corner.map((value, axis) => value - a[axis]));
-    const across = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    return across.map((value) => value / Math.hypot(...across));
-  };
-  return new Float32Array(faces.flatMap((face) => face.flatMap((corner) => [...corner, ...normal(face)])));
-}
-
 export class Drawing {
   constructor(canvas) {
     this.canvas = canvas;
     this.camera = new Camera();
-    this.gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
+    // shapes and lines have soft edges of their own, which cost less than samples
+    this.gl = canvas.getContext("webgl2", { antialias: false, alpha: false });
     if (this.gl === null) throw new Error("this browser does not draw with WebGL 2");
     Object.assign(this, { scene: null, frame: null, obstacles: [], items: [], colours: null, byLabel: false, withTrails: true });
     this.makeParts();
@@ -212,19 +204,11 @@ export class Drawing {
       return { made, at };
     };
     this.programs = {
-      flat: program(FLAT, FRAGMENT), dart: program(DART, FRAGMENT), line: program(LINE, LINE_FRAGMENT),
-      trail: program(TRAIL, FRAGMENT), solid: program(SOLID, FRAGMENT), point: program(POINT, POINT_FRAGMENT),
+      agent: program(AGENT, AGENT_FRAGMENT), line: program(LINE, LINE_FRAGMENT), trail: program(TRAIL, TRAIL_FRAGMENT),
+      solid: program(SOLID, FRAGMENT), point: program(POINT, POINT_FRAGMENT),
     };
-    const filled = (data) => {
-      const buffer = gl.createBuffer();
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      if (data) gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
-      return buffer;
-    };
-    this.buffers = {
-      flat: filled(flatShape()), dart: filled(dartShape()), corner: filled(new Float32Array([0, -1, 0, 1, 1, -1, 1, 1])),
-      headings: filled(), groups: filled(), labels: filled(), radii: filled(), lines: filled(), solids: filled(), items: filled(),
-    };
+    this.buffers = Object.fromEntries(["headings", "groups", "labels", "radii", "lines", "solids", "items"].map((name) => [name, gl.createBuffer()]));
+    [, this.largest] = gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE);
     this.trails = new Trails(gl);
     this.counts = { lines: 0, solids: 0, items: 0 };
     gl.enable(gl.BLEND);
@@ -248,7 +232,6 @@ export class Drawing {
   setScene(scene, keepsView) {
     this.scene = scene;
     this.frame = null;
-    this.trails.clear();
     this.hasView = keepsView && this.hasView;
     this.uploadAgents();
     this.setObstacles([]);
@@ -265,41 +248,17 @@ export class Drawing {
       radii.fill(group.radius, group.first, group.first + group.count);
     });
     this.fill("groups", groups);
+    this.trails.begin(scene, groups);
     this.fill("radii", radii);
   }
 
   /** The view of everything: the space where it ends, the agents where it does not. */
   fit() {
     const { space, dimensions } = this.scene;
-    const bounds = this.frame ? this.agentBounds() : null;
-    const side = (ends, which) => [0, 1, 2].map((axis) => {
-      if (axis >= dimensions) return 0;
-      const isOpen = space.edges[axis] === "open";
-      return (isOpen && bounds ? bounds[which][axis] : ends[axis]) ?? (which === 0 ? 0 : 1);
-    });
-    const low = side(space.low, 0), high = side(space.high, 1);
-    for (let axis = 0; axis < dimensions; axis += 1) if (!(high[axis] > low[axis])) high[axis] = low[axis] + 1;
-    this.camera.setBounds(dimensions, low, high);
+    this.camera.setBounds(dimensions, ...boundsOf(this.scene, this.frame));
     this.camera.fit();
-    this.hasView = this.frame !== null || space.low.every((end) => end !== null);
+    this.hasView = this.frame !== null || space.edges.every((edge) => edge !== "open");
     this.upload();
-  }
-
-  /** Where the agents are, of a sample of them, with some room. */
-  agentBounds() {
-    const { positions, agents, dimensions } = this.frame;
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    const stride = Math.max(1, Math.floor(agents / 2000));
-    for (let agent = 0; agent < agents; agent += stride) {
-      for (let axis = 0; axis < dimensions; axis += 1) {
-        const value = positions[agent * dimensions + axis];
-        if (value < low[axis]) low[axis] = value;
-        if (value > high[axis]) high[axis] = value;
-      }
-    }
-    if (!Number.isFinite(low[0])) return null;
-    const room = 0.15 * Math.max(...low.slice(0, dimensions).map((end, axis) => high[axis] - end), 1e-9);
-    return [low.map((end) => end - room), high.map((end) => end + room)];
   }
 
   setObstacles(list) { this.obstacles = list; this.upload(); }
@@ -317,7 +276,7 @@ export class Drawing {
     this.fill("solids", triangles);
     this.fill("lines", lines);
     this.counts.solids = triangles.length / 9;
-    this.counts.lines = lines.length / 11;
+    this.counts.lines = lines.length / 13;
   }
 
   setFrame(frame) {
@@ -354,14 +313,13 @@ export class Drawing {
     return at;
   }
 
-  /** An attribute: where it stands, how many numbers, from which buffer; `each` 1 for one per thing drawn. */
-  attribute(place, size, buffer, { stride = 0, offset = 0, each = 0, kind = this.gl.FLOAT } = {}) {
+  /** An attribute: where it stands, how many numbers, from which buffer. */
+  attribute(place, size, buffer, { stride = 0, offset = 0, kind = this.gl.FLOAT } = {}) {
     const { gl } = this;
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
     gl.enableVertexAttribArray(place);
     if (kind === gl.UNSIGNED_BYTE) gl.vertexAttribIPointer(place, size, kind, stride, offset);
     else gl.vertexAttribPointer(place, size, kind, false, stride, offset);
-    gl.vertexAttribDivisor(place, each);
   }
 
   draw() {
@@ -384,11 +342,8 @@ export class Drawing {
     }
     if (this.counts.lines > 0) {
       this.use("line");
-      this.attribute(0, 2, this.buffers.corner);
-      [[3, 0], [3, 12], [3, 24], [2, 36]].forEach(([size, offset], index) => {
-        this.attribute(index + 1, size, this.buffers.lines, { stride: 44, offset, each: 1 });
-      });
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.counts.lines);
+      [[3, 0], [3, 12], [3, 24], [2, 36], [2, 44]].forEach(([size, offset], place) => this.attribute(place, size, this.buffers.lines, { stride: 52, offset }));
+      gl.drawArrays(gl.TRIANGLES, 0, this.counts.lines);
       free();
     }
     if (this.frame) this.drawAgents(free);
@@ -405,41 +360,37 @@ export class Drawing {
 
   drawAgents(free) {
     const { gl, camera, frame, scene } = this;
-    const D = frame.dimensions, many = frame.agents > MANY;
-    const series = frame.labels && this.byLabel ? this.buffers.labels : this.buffers.groups;
-    if (this.withTrails && this.trails.segments(frame.agents) > 0) {
+    const D = frame.dimensions, byLabel = frame.labels !== null && this.byLabel;
+    const parts = this.withTrails ? this.trails.parts() : null;
+    if (parts) {
       const at = this.use("trail");
-      const longest = [0, 1, 2].map((axis) => (
-        scene.space.edges[axis] === "periodic" ? (scene.space.high[axis] - scene.space.low[axis]) / 2 : 1e30));
-      gl.uniform3fv(at("longest"), longest);
-      this.attribute(0, 2, this.buffers.corner);
-      this.attribute(4, 1, series, { each: 1, kind: gl.UNSIGNED_BYTE });
-      if (camera.isSpace) gl.depthMask(false);
-      this.trails.each(frame.agents, (from, to, strength) => {
-        this.attribute(1, D, from, { each: 1 });
-        this.attribute(2, D, to, { each: 1 });
-        gl.uniform1f(at("strength"), strength);
-        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, frame.agents);
-      });
+      gl.uniform3fv(at("longest"), [0, 1, 2].map((axis) => (
+        scene.space.edges[axis] === "periodic" ? (scene.space.high[axis] - scene.space.low[axis]) / 2 : 1e30)));
+      for (const name of ["agents", "head", "slots", "drawn"]) gl.uniform1i(at(name), parts[name]);
+      this.attribute(0, D, this.trails.places, { offset: parts.bytes });
+      this.attribute(1, D, this.trails.places);
+      this.attribute(2, 1, byLabel ? this.trails.labels : this.trails.groups, { kind: gl.UNSIGNED_BYTE });
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.trails.lines);
+      gl.depthMask(false);
+      for (const [first, count] of parts.ranges) gl.drawElements(gl.LINES, count, gl.UNSIGNED_INT, first * 4);
       gl.depthMask(true);
       free();
     }
-    const at = this.use(camera.isSpace ? "dart" : "flat");
+    const at = this.use("agent"), ratio = this.canvas.width / camera.wide;
+    const [across, up] = camera.axes();
+    gl.uniform3fv(at("across"), across);
+    gl.uniform3fv(at("up"), up);
     gl.uniform1f(at("scale"), camera.scale);
     gl.uniform1f(at("smallest"), this.smallest());
-    this.attribute(2, D, this.trails.newest, { each: 1 });
-    this.attribute(3, D, this.buffers.headings, { each: 1 });
-    this.attribute(4, 1, series, { each: 1, kind: gl.UNSIGNED_BYTE });
-    this.attribute(5, 1, this.buffers.radii, { each: 1 });
-    if (camera.isSpace) {
-      gl.uniform1f(at("distance_to_centre"), camera.distance);
-      [3, 3].forEach((size, place) => this.attribute(place, size, this.buffers.dart, { stride: 24, offset: 12 * place }));
-      gl.drawArraysInstanced(gl.TRIANGLES, 0, 12, frame.agents);
-    } else {
-      this.attribute(0, 4, this.buffers.flat, { stride: 20 });
-      this.attribute(1, 1, this.buffers.flat, { stride: 20, offset: 16 });
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, many ? 10 : 0, many ? 8 : 18, frame.agents);
-    }
+    gl.uniform1f(at("largest"), Math.min(LARGEST, this.largest / ratio / 2.3));
+    gl.uniform1f(at("ratio"), ratio);
+    gl.uniform1f(at("nearness"), camera.isSpace ? camera.distance : 1);
+    gl.uniform1f(at("contour"), frame.agents > MANY ? 0 : 1);
+    this.attribute(0, D, this.trails.places, { offset: this.trails.newest });
+    this.attribute(1, D, this.buffers.headings);
+    this.attribute(2, 1, byLabel ? this.buffers.labels : this.buffers.groups, { kind: gl.UNSIGNED_BYTE });
+    this.attribute(3, 1, this.buffers.radii);
+    gl.drawArrays(gl.POINTS, 0, frame.agents);
     free();
   }
 
@@ -447,14 +398,14 @@ export class Drawing {
   smallest() {
     const agents = this.frame?.agents ?? 0;
     const zoomed = clamp(Math.sqrt(this.camera.scale / this.camera.fitted), 0.7, 2.2);
-    const size = agents > 20000 ? 2 : agents > 4000 ? 2.6 : agents > 800 ? 3.6 : 5.2;
+    const size = agents > 8000 ? 2 : agents > 3000 ? 2.6 : agents > 800 ? 3.6 : 5.2;
     return size * zoomed * (this.camera.wide < 500 ? 0.8 : 1) * (this.camera.isSpace ? 1.2 : 1);
   }
 
   /** How large an agent is drawn, half its length. */
   halfLength(radius, scale) {
     if (this.camera.isSpace) return Math.max(radius, this.smallest() / this.camera.scale) * scale;
-    return clamp(radius * scale, this.smallest(), 400);
+    return clamp(radius * scale, this.smallest(), LARGEST);
   }
 
   /** The agent that is nearest to a point of the canvas, or null. */
@@ -475,7 +426,7 @@ export class Drawing {
 
   /** The middle of the agents, of a sample of them. */
   middleOfAgents() {
-    const bounds = this.frame ? this.agentBounds() : null;
+    const bounds = this.frame ? boundsOfAgents(this.frame) : null;
     return bounds && bounds[0].map((low, axis) => (axis < this.frame.dimensions ? (low + bounds[1][axis]) / 2 : 0));
   }
 }

@@ -64,7 +64,7 @@ export class Explanation {
       const stage = row.stage === before ? "" : row.stage;
       before = row.stage;
       return element("tr", { className: stage ? "first" : "" }, element("th", { scope: "row", textContent: stage }), cell(row.name),
-        cell(typeof row.value === "number" ? withUnit(row.value, row.unit) : String(row.value ?? "missing"), { className: "number" }));
+        cell(typeof row.value === "number" ? withUnit(row.value, row.unit) : String(row.value ?? "missing"), { className: typeof row.value === "number" ? "number" : "number words" }));
     });
     const seen = explanation.detected.length;
     const sensing = [explanation.sensing.kind, explanation.sensing.range === null ? "no limit" : `to ${withUnit(explanation.sensing.range, scene.units.length, 4)}`,

@@ -37,6 +37,34 @@ export function vectorOf(values, frame, agent) {
   return vector.every(Number.isFinite) ? vector : null;
 }
 
+/** Where the agents are, of a sample of them, with some room. */
+export function boundsOfAgents({ positions, agents, dimensions }) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  const stride = Math.max(1, Math.floor(agents / 2000));
+  for (let agent = 0; agent < agents; agent += stride) {
+    for (let axis = 0; axis < dimensions; axis += 1) {
+      const value = positions[agent * dimensions + axis];
+      if (value < low[axis]) low[axis] = value;
+      if (value > high[axis]) high[axis] = value;
+    }
+  }
+  if (!Number.isFinite(low[0])) return null;
+  const room = 0.15 * Math.max(...low.slice(0, dimensions).map((end, axis) => high[axis] - end), 1e-9);
+  return [low.map((end) => end - room), high.map((end) => end + room)];
+}
+
+/** What is to be seen as a whole: the space where it ends, the agents where it does not. */
+export function boundsOf({ space, dimensions }, frame) {
+  const agents = frame ? boundsOfAgents(frame) : null;
+  const side = (ends, which) => [0, 1, 2].map((axis) => {
+    if (axis >= dimensions) return 0;
+    return (space.edges[axis] === "open" && agents ? agents[which][axis] : ends[axis]) ?? which;
+  });
+  const low = side(space.low, 0), high = side(space.high, 1);
+  for (let axis = 0; axis < dimensions; axis += 1) if (!(high[axis] > low[axis])) high[axis] = low[axis] + 1;
+  return [low, high];
+}
+
 const list = (value) => (Array.isArray(value) ? value : []);
 const objects = (value) => list(value).filter((part) => part !== null && typeof part === "object");
 const text = (value, otherwise = "") => (typeof value === "string" ? value : otherwise);

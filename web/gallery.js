@@ -1,8 +1,9 @@
 // The wall of built-in scenarios: a still of each, and the one that is pointed at plays.
 
+import { Camera } from "./camera.js";
 import { Connection } from "./connection.js";
-import { Drawing } from "./draw.js";
-import { readFrame, readScene, vector } from "./frame.js";
+import { boundsOf, readFrame, readScene } from "./frame.js";
+import { sketch } from "./sketch.js";
 import { readShape } from "./solids.js";
 import { colours, element, one, wantsCalm } from "./words.js";
 
@@ -67,10 +68,8 @@ export class Gallery {
 
   takeStills() {
     this.preview?.end();
-    try {
-      this.preview = new Preview(() => this.cards.find((card) => !card.isDrawn && card.box.getBoundingClientRect().top < 2 * innerHeight));
-      this.place.onscroll = () => this.preview?.next();
-    } catch { this.preview = null; /* without WebGL, cards are words */ }
+    this.preview = new Preview(() => this.cards.find((card) => !card.isDrawn && card.box.getBoundingClientRect().top < 2 * innerHeight));
+    this.place.onscroll = () => this.preview?.next();
   }
 
   repaint() {
@@ -79,37 +78,38 @@ export class Gallery {
   }
 }
 
-/** One connection and one drawing, lent to a card at a time. */
+/** One connection, lent to a card at a time. */
 class Preview {
   constructor(nextCard) {
-    this.nextCard = nextCard;
-    this.canvas = new OffscreenCanvas(WIDE, TALL);
-    this.drawing = new Drawing(this.canvas);
-    this.drawing.setColours(colours());
-    Object.assign(this, { card: null, plays: false, scene: null, frame: null, waits: false });
+    Object.assign(this, { nextCard, card: null, plays: false, scene: null, frame: null, obstacles: [], waits: false });
+    this.camera = new Camera();
     this.connection = new Connection({
       state: () => {},
       message: (message) => this.receive(message),
       frame: (buffer) => {
         const frame = readFrame(buffer);
-        if (this.scene) { this.frame = frame; this.request(); } else this.connection.send({ do: "seen", number: frame.number });
+        if (this.scene && frame.dimensions === this.scene.dimensions) { this.frame = frame; this.request(); }
+        else this.connection.send({ do: "seen", number: frame.number });
       },
       // a preview is no place for complaints: the scene itself says what is wrong
-      broken: () => { if (this.card) this.card.isDrawn = true; },
+      broken: () => this.done(),
     });
   }
 
-  end() {
-    this.connection.end();
-    this.drawing.gl.getExtension("WEBGL_lose_context")?.loseContext();
-  }
+  end() { this.connection.end(); }
 
   open(card, plays) {
-    Object.assign(this, { card, plays, scene: null, frame: null });
+    Object.assign(this, { card, plays, scene: null, frame: null, obstacles: [] });
     if (card) this.connection.send({ do: "open", ...card.what });
   }
 
-  next() { if (this.card === null) this.open(this.nextCard() ?? null, false); }
+  next() { if (this.card === null && this.connection.isOpen) this.open(this.nextCard() ?? null, false); }
+
+  done() {
+    if (this.card) this.card.isDrawn = true;
+    this.card = null;
+    this.next();
+  }
 
   play(card) {
     if (this.card === card && this.scene) { this.plays = true; this.connection.send({ do: "play" }); } else this.open(card, true);
@@ -118,25 +118,19 @@ class Preview {
   stop(card) {
     if (this.card !== card || !this.plays) return;
     this.connection.send({ do: "pause" });
-    this.card = null;
-    this.next();
+    this.done();
   }
 
   receive(message) {
     if (message.is === "hello") this.next();
-    if (message.is === "problem" && this.card) { this.card.isDrawn = true; this.card = null; this.next(); }
+    if (message.is === "problem" && this.card) this.done();
     if (message.is === "scene" && this.card) {
       this.scene = readScene(message);
-      this.drawing.setScene(this.scene, false);
-      this.drawing.resize(WIDE, TALL);
-      this.drawing.fit();
       if (this.plays) this.connection.send({ do: "play" });
       else if (this.scene.isRun) this.connection.send({ do: "seek", frame: Math.floor(this.scene.frames / 2) });
       else this.connection.send({ do: "step", count: STILL_STEPS });
     }
-    if (message.is === "obstacles" && this.scene) this.drawing.setObstacles((message.list ?? []).map(readShape).filter((shape) => shape !== null));
-    if (message.is === "items" && this.scene) this.drawing.setItems((message.places ?? []).map(vector));
-    if (message.is === "status" && this.scene) this.status = message;
+    if (message.is === "obstacles" && this.scene) this.obstacles = (message.list ?? []).map(readShape).filter((shape) => shape !== null);
   }
 
   request() {
@@ -144,21 +138,17 @@ class Preview {
     this.waits = true;
     requestAnimationFrame(() => {
       this.waits = false;
-      const { card, frame } = this;
-      if (!card || !frame || !this.scene || this.drawing.gl.isContextLost()) return;
-      try {
-        this.drawing.setFrame(frame);
-        if (this.scene.space.edges.every((edge) => edge === "open")) this.drawing.fit();
-        this.drawing.draw();
-        card.canvas.getContext("bitmaprenderer").transferFromImageBitmap(this.canvas.transferToImageBitmap());
-      } catch { card.isDrawn = true; }
+      const { card, frame, scene, camera } = this;
+      if (!card || !frame || !scene) return;
+      const bounds = boundsOf(scene, frame), ratio = Math.min(devicePixelRatio || 1, 2);
+      Object.assign(camera, { wide: WIDE, tall: TALL });
+      camera.setBounds(scene.dimensions, ...bounds);
+      camera.fit();
+      Object.assign(card.canvas, { width: WIDE * ratio, height: TALL * ratio });
+      sketch(card.canvas.getContext("2d"), scene, camera, frame, this.obstacles, colours(), ratio);
       this.connection.send({ do: "seen", number: frame.number });
       // a still is done when its steps are
-      if (!this.plays && (this.scene.isRun ? frame.step > 0 : frame.step >= Math.min(STILL_STEPS, this.scene.steps ?? STILL_STEPS))) {
-        card.isDrawn = true;
-        this.card = null;
-        this.next();
-      }
+      if (!this.plays && (scene.isRun ? frame.step > 0 : frame.step >= Math.min(STILL_STEPS, scene.steps ?? STILL_STEPS))) this.done();
     });
   }
 }

@@ -85,7 +85,7 @@ const told = {
   scene: (pane, isSame) => {
     notice("");
     pane.drawing && (pane.drawing.withTrails = at.trails.checked);
-    if (pane !== lead()) { clock?.add(pane); return; }
+    if (pane !== lead()) { clock?.add(pane); showTitle(); return; }
     showScene(pane.scene, isSame);
     clock?.add(pane);
     if (!isSame && !pane.restores && !pane.scene.isRun && !wantsCalm()) pane.send({ do: "play" });
@@ -109,7 +109,7 @@ const told = {
     if (pane === lead()) {
       if (pane.frame) {
         const { frame } = pane;
-        at.time.replaceChildren(`t = ${withUnit(frame.time, pane.scene.units.time, 5)}`, element("small", { textContent: `step ${frame.step}${!pane.scene.isRun && pane.scene.steps !== null ? ` of ${pane.scene.steps}` : ""}` }));
+        at.time.replaceChildren(`t = ${withUnit(frame.time, pane.scene.units.time, 5)}`, element("small", { textContent: whereIs(pane.scene, frame.step) }));
         at.time.dataset.step = frame.step;
         charts.showNow(frame.time);
         if (pane.scene.isRun && document.activeElement?.dataset?.scrubbing !== "yes") at.scrub.value = frameOf(frame.step);
@@ -122,11 +122,17 @@ const told = {
 
 // ------------------------------------------------ what is shown
 
+const whereIs = (now, step) => (now.isRun ? `frame ${frameOf(step) + 1} of ${now.frames}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
 const frameOf = (step) => Math.round((step - scene().fromStep) / scene().everySteps);
 
+const showTitle = () => {
+  const titles = [...new Set(panes.map((pane) => pane.scene?.title).filter(Boolean))];
+  at.title.textContent = titles.join(" and ");
+  document.title = `${titles.join(" and ")} · flockworks`;
+};
+
 function showScene(now, isSame) {
-  at.title.textContent = now.title;
-  document.title = `${now.title} · flockworks`;
+  showTitle();
   one("#about .about").textContent = now.about;
   root.dataset.kind = now.isRun ? "run" : "live";
   charts.begin(now);

@@ -58,7 +58,10 @@ function made(control, set) {
     ask.setAttribute("aria-expanded", String(!help.hidden));
   });
   const label = element("label", { htmlFor: id }, control.name);
-  if (control.symbol) label.append(" ", element("var", { textContent: control.symbol }));
+  if (control.symbol) {
+    const [symbol, ...index] = control.symbol.split("_");
+    label.append(" ", element("var", {}, symbol, index.length ? element("sub", { textContent: index.join("_") }) : null));
+  }
   const shared = { title: help.textContent };
   const row = element("div", { className: "row" });
   if (isNumeric) {

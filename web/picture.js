@@ -3,7 +3,7 @@
 import { clamp, drawn, withUnit, written } from "./words.js";
 
 const ROUND = 64;
-const LETTER = 6.7, LINE = 15;
+const LETTER = 7.3, LINE = 15;
 const TAU = 2 * Math.PI;
 
 const length = (vector) => Math.hypot(...vector);
@@ -52,6 +52,12 @@ export const setMark = (size, index) => mark([0, 0], size, index);
 class Labels {
   constructor(wide, tall) { Object.assign(this, { wide, tall, taken: [], made: [] }); }
 
+  /** How much of a box covers what is there. */
+  covered(one) {
+    return this.taken.reduce((sum, other) => sum
+      + Math.max(0, Math.min(one[2], other[2]) - Math.max(one[0], other[0])) * Math.max(0, Math.min(one[3], other[3]) - Math.max(one[1], other[1])), 0);
+  }
+
   /** Keeps a point free of text. */
   avoid([x, y], size) { this.taken.push([x - size, y - size, x + size, y + size]); }
 
@@ -65,10 +71,19 @@ class Labels {
       middle[1] = clamp(middle[1], LINE / 2 + 3, this.tall - LINE / 2 - 3);
       return [middle[0] - across / 2, middle[1] - LINE / 2, middle[0] + across / 2, middle[1] + LINE / 2];
     };
-    const covered = (one) => this.taken.reduce((sum, other) => sum
-      + Math.max(0, Math.min(one[2], other[2]) - Math.max(one[0], other[0])) * Math.max(0, Math.min(one[3], other[3]) - Math.max(one[1], other[1])), 0);
+    const covered = (one) => this.covered(one);
     const tries = [[0, 0], [0, 10], [0, -10], [15, 0], [-15, 0], [0, 22], [0, -22], [30, 0], [-30, 0], [45, 0], [-45, 0]].map(([shift, aside]) => box(shift, aside));
-    const best = tries.reduce((least, one) => (covered(one) < covered(least) ? one : least));
+    this.put(text, tries.reduce((least, one) => (covered(one) < covered(least) ? one : least)), style);
+  }
+
+  /** Sets text over the spot where it covers least. */
+  addWithin(text, spots, style) {
+    const half = text.length * LETTER / 2;
+    const boxes = spots.map(([x, y]) => [x - half, y - LINE / 2, x + half, y + LINE / 2]);
+    this.put(text, boxes.reduce((least, one) => (this.covered(one) < this.covered(least) ? one : least)), style);
+  }
+
+  put(text, best, style) {
     this.taken.push(best);
     this.made.push(drawn("text", { x: (best[0] + best[2]) / 2, y: best[3] - 4, class: `label ${style}`, "text-anchor": "middle" }, text));
   }
@@ -114,7 +129,7 @@ export function drawFigure(svg, explanation, view, units) {
       const rim = circle(unit(heading.map((value) => -value)), reach * Math.cos(half), reach * Math.sin(half));
       put("path", { d: pathOf(rim), class: "blind" });
       for (let k = 0; k < ROUND; k += 8) put("path", { d: pathOf([centre, rim[k]], false), class: "blind" });
-      labels.add("blind", at(heading.map((value) => -0.85 * reach * value)), [0, 1], "faint");
+      if (view.withLabels) labels.add("blind", at(heading.map((value) => -0.85 * reach * value)), [0, 1], "faint");
     }
   } else {
     put("path", { d: sector(0, reach, angle, opening), class: "region" });
@@ -149,7 +164,7 @@ export function drawFigure(svg, explanation, view, units) {
       labels.add(withUnit(distance, units.length, 3), there, add(there, centre, -1), "faint");
     }
   }
-  const body = view.radius(scale);
+  const body = view.radius(scale), gap = view.withLabels ? 4 : 1.5;
   const selected = new Set(sets.flatMap((set) => set.members.map(({ offset }) => offset.join())));
   const bodies = (list, style) => {
     if (!view.withBodies || list.length === 0) return;
@@ -165,14 +180,14 @@ export function drawFigure(svg, explanation, view, units) {
   };
   const ignored = explanation.detected.filter(({ offset }) => !selected.has(offset.join()));
   bodies(ignored, "ignored");
-  if (ignored.length > 0) put("path", { d: ignored.map(({ offset }) => mark(at(offset), body + 3, 0)).join(""), class: "detected" });
+  if (ignored.length > 0) put("path", { d: ignored.map(({ offset }) => mark(at(offset), body + gap - 1, 0)).join(""), class: "detected" });
   const links = sets.filter((set) => set.acts).flatMap((set) => set.members);
   if (links.length > 0) put("path", { d: links.map(({ offset }) => pathOf([centre, at(offset)], false)).join(""), class: "link" });
   sets.forEach((set, index) => {
     if (set.members.length === 0) return;
     const style = setStyle(set, index);
     bodies(set.members, style);
-    put("path", { d: set.members.map(({ offset }) => mark(at(offset), body + 4, index)).join(""), class: `member ${style}`, "data-set": set.name, "data-count": set.members.length });
+    put("path", { d: set.members.map(({ offset }) => mark(at(offset), body + gap, index)).join(""), class: `member ${style}`, "data-set": set.name, "data-count": set.members.length });
   });
 
   // ------------------------------------------------ what it makes of it
@@ -185,6 +200,7 @@ export function drawFigure(svg, explanation, view, units) {
   })());
   const arrow = (vector, full, arms, width, style, data) => {
     const tip = tipOf(vector, full, arms);
+    for (const part of [0.4, 0.65, 0.9]) labels.avoid([0, 1].map((axis) => centre[axis] + part * (tip[axis] - centre[axis])), 5);
     put("path", { d: arrowPath(centre, tip, width), class: `arrow ${style}`, ...data });
     return tip;
   };
@@ -213,7 +229,19 @@ export function drawFigure(svg, explanation, view, units) {
     if (away && length(away) > 0 && view.withLabels) put("path", { d: arrowPath(at(offset), tipOf(add(offset, unit(away), 0.16 * reach), 1, scale), 1.6), class: "arrow away" });
   }
   labels.avoid(centre, body + 8);
+  const marked = [...explanation.detected, ...sets.flatMap((set) => set.members)];
+  if (view.withLabels && marked.length < 200) for (const { offset } of marked) labels.avoid(at(offset), body + 2);
   for (const [text, tip, style] of captions) labels.add(text, tip, [tip[0] - centre[0], tip[1] - centre[1]], style);
+
+  // names of the zones last: they give way to everything else
+  if (view.withLabels && view.withBodies && !isSpace) {
+    sets.forEach((set, index) => {
+      const low = set.low ?? 0;
+      if (set.high === null || (set.high - low) * scale < LINE || set.high > reach * 1.001) return;
+      const spots = [-0.36, 0.36, -0.2, 0.2, 0].map((turn) => polar((low + set.high) / 2, angle + turn * opening));
+      labels.addWithin(set.name, spots, setStyle(set, index));
+    });
+  }
 
   // ------------------------------------------------ the agent itself
   const me = moves ? at(heading.map((value) => value * 0.02 * reach)) : null;

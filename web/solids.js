@@ -1,11 +1,14 @@
 // Obstacles, the floor and the edges of the space, as triangles (place, normal, colour) and lines (two ends, colour,
-// width, dash).
+// width, dash, corner; six times each).
 
 import { isNumber } from "./words.js";
 import { vector } from "./frame.js";
 
 const ROUND = 48, RINGS = 14;
 const FLAT = [0, 0, 0];
+// two triangles make a line: which end, and which side
+const CORNERS = [[0, -1], [0, 1], [1, -1], [1, -1], [0, 1], [1, 1]];
+export const LINE_NUMBERS = 13;
 
 /** A shape as it was sent, checked; null for what is not known. */
 export function readShape(shape) {
@@ -52,7 +55,9 @@ export function solids(scene, camera, obstacles, colours) {
   const triangles = [], lines = [];
   const isSpace = scene.dimensions === 3;
   const triangle = (corners, normals, colour) => corners.forEach((corner, index) => triangles.push(...corner, ...(normals[index] ?? normals[0]), ...colour));
-  const line = (from, to, colour, width, dash = 0) => lines.push(...from, ...to, ...colour, width, dash);
+  const line = (from, to, colour, width, dash = 0) => {
+    for (const corner of CORNERS) lines.push(...from, ...to, ...colour, width, dash, ...corner);
+  };
   const outline = (corners, colour, width) => corners.forEach((corner, at) => line(corner, corners[(at + 1) % corners.length], colour, width));
   const quad = (a, b, c, d, normal, colour) => { triangle([a, b, c], [normal], colour); triangle([a, c, d], [normal], colour); };
   const { low, high } = camera;

@@ -1,42 +1,68 @@
-// Where agents were: the positions of the last frames stay on the graphics card, and a trail joins each to the next.
+// Where agents were: the places of the last frames stay on the graphics card, and a trail joins each to the next.
 
 const MOST_SEGMENTS = 40000, LONGEST = 28, WORTH_DRAWING = 3;
 
+/**
+ * One buffer of slots, each with the places of all agents at one frame, used in turn. Slot 0 repeats the last one, so
+ * that every line leads from one slot to the next; before it stands an empty slot, because the shader looks one back.
+ */
 export class Trails {
   constructor(gl) {
     this.gl = gl;
-    this.slots = Array.from({ length: LONGEST + 1 }, () => gl.createBuffer());
-    this.clear();
+    for (const name of ["places", "groups", "labels", "lines"]) this[name] = gl.createBuffer();
+    Object.assign(this, { agents: 0, slots: 1, head: 1, used: 0 });
   }
 
-  clear() { Object.assign(this, { used: 0, head: -1, agents: 0, last: null, direction: 0 }); }
+  /** Makes room for a scene. Where there are very many agents, no trails are kept: drawing would falter. */
+  begin(scene, groups) {
+    const { gl } = this, agents = Math.max(1, scene.agents);
+    const most = Math.min(LONGEST, Math.floor(MOST_SEGMENTS / agents));
+    const slots = most < WORTH_DRAWING ? 1 : most + 1;
+    Object.assign(this, { agents, slots, head: 1, used: 0, last: null, direction: 0, spacing: scene.isRun ? scene.everySteps : null });
+    this.slotBytes = agents * scene.dimensions * 4;
+    const room = (name, content) => { gl.bindBuffer(gl.ARRAY_BUFFER, this[name]); gl.bufferData(gl.ARRAY_BUFFER, content, gl.DYNAMIC_DRAW); };
+    room("places", (slots + 2) * this.slotBytes);
+    const series = new Uint8Array((slots + 1) * agents).fill(255);
+    room("labels", series);
+    for (let slot = 0; slot <= slots; slot += 1) series.set(groups, slot * agents);
+    room("groups", series);
+    const lines = new Uint32Array(slots > 1 ? 2 * slots * agents : 0);
+    for (let at = 0; at < lines.length / 2; at += 1) { lines[2 * at] = at; lines[2 * at + 1] = at + agents; }
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.lines);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, lines, gl.STATIC_DRAW);
+  }
 
-  get newest() { return this.slots[this.head]; }
+  /** Where the newest places begin, in bytes. */
+  get newest() { return (this.head + 1) * this.slotBytes; }
 
-  /** Takes the positions of a frame; a jump or a turn in time begins anew. */
+  /** Takes the places of a frame; a jump or a turn in time begins anew. */
   add(frame) {
     const by = this.last === null ? 0 : frame.step - this.last;
-    const continues = this.agents === frame.agents && by !== 0 && (this.direction === 0 || (Math.sign(by) === Math.sign(this.direction)
-      && Math.abs(by) <= 12 * Math.abs(this.direction)));
-    if (by === 0 && this.agents === frame.agents && this.used > 0) this.used -= 1; else this.head = (this.head + 1) % this.slots.length;
-    if (!continues && by !== 0) this.used = 0;
+    const usual = this.spacing ?? Math.abs(this.direction);
+    const turns = by * this.direction < 0, jumps = usual > 0 && Math.abs(by) > 12 * usual;
+    const continues = this.count === frame.agents && by !== 0 && !turns && !jumps;
+    if (continues) this.head = this.head % this.slots + 1;
+    this.used = continues ? Math.min(this.used + 1, this.slots) : by === 0 && this.used > 0 ? this.used : 1;
     if (by !== 0) this.direction = continues ? by : 0;
-    Object.assign(this, { agents: frame.agents, last: frame.step });
-    this.used = Math.min(this.used + 1, this.slots.length);
-    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.newest);
-    this.gl.bufferData(this.gl.ARRAY_BUFFER, frame.positions, this.gl.STREAM_DRAW);
+    Object.assign(this, { count: frame.agents, last: frame.step });
+    const { gl } = this;
+    for (const slot of this.head === this.slots ? [this.head, 0] : [this.head]) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
+      gl.bufferSubData(gl.ARRAY_BUFFER, (slot + 1) * this.slotBytes, frame.positions);
+      if (!frame.labels || this.slots === 1) continue;
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.labels);
+      gl.bufferSubData(gl.ARRAY_BUFFER, slot * this.agents, frame.labels);
+    }
   }
 
-  /** How many segments are drawn: fewer where there are so many agents that drawing would falter. */
-  segments(agents) {
-    const most = Math.min(LONGEST, Math.floor(MOST_SEGMENTS / Math.max(1, agents)));
-    return most < WORTH_DRAWING ? 0 : Math.min(most, this.used - 1);
-  }
-
-  /** Calls `act` with two buffers and a strength for each segment, the oldest first. */
-  each(agents, act) {
-    const count = this.segments(agents);
-    const slot = (back) => this.slots[(this.head - back + this.slots.length) % this.slots.length];
-    for (let back = count; back > 0; back -= 1) act(slot(back), slot(back - 1), 0.06 + 0.44 * (1 - (back - 1) / count));
+  /** What is to be drawn: ranges of indices, and what the shader must know; null for nothing. */
+  parts() {
+    const { agents, slots, head } = this, drawn = this.used - 1;
+    if (drawn < 1 || this.count !== agents) return null;
+    // the line into slot k stands k - 1 slots from the beginning
+    const range = (from, to) => [2 * (from - 1) * agents, 2 * (to - from + 1) * agents];
+    const first = head - drawn + 1;
+    const ranges = first >= 1 ? [range(first, head)] : [range(1, head), range(first + slots, slots)];
+    return { agents, slots, head, drawn, ranges, bytes: this.slotBytes };
   }
 }

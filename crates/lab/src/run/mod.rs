@@ -324,7 +324,7 @@ where
     let block = block_steps(agents, schedule);
     let metrics = crate::scenario::metrics_of::<D>(scenario).map_err(|wrong| StoreError::Refused(wrong.what))?;
     let recorder = Recorder::start(&world, scenario, metrics, log);
-    let mut observer = recorder::Observer::new(&world, carried);
+    let mut observer = recorder::Observer::new(&world, carried, schedule.step);
     let sent = 'steps: loop {
         let step = world.step_number();
         if step > from && step.is_multiple_of(block) {

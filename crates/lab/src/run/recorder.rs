@@ -76,6 +76,8 @@ impl Carried {
 /// The engine's side.
 pub(super) struct Observer {
     pub(super) carried: Carried,
+    /// Time of a step. A time in a table is a multiple of it, without the rounding of a long sum.
+    step: f64,
     /// Ids at which groups end.
     ends: Vec<u32>,
     /// Whether each agent was alive, by id; empty where nobody can die.
@@ -85,12 +87,12 @@ pub(super) struct Observer {
 }
 
 impl Observer {
-    pub(super) fn new<R: Scalar, const D: usize>(world: &World<R, D>, carried: Carried) -> Self {
+    pub(super) fn new<R: Scalar, const D: usize>(world: &World<R, D>, carried: Carried, step: f64) -> Self {
         let frame = world.frame();
         let ends = frame.groups.iter().map(|group| group.first + group.count).collect();
         let list = world.obstacles().list();
         let planned = list.iter().enumerate().filter_map(|(k, o)| Some((k, o.plan.as_ref()?.present(world.time()))));
-        Self { carried, ends, alive: alive(world), there: planned.collect() }
+        Self { carried, step, ends, alive: alive(world), there: planned.collect() }
     }
     /// The state as it is to be kept or measured.
     pub(super) fn sample<R: Scalar, const D: usize>(
@@ -104,14 +106,15 @@ impl Observer {
         Message::Sample {
             columns: Box::new(view.columns.clone()),
             step: view.step,
-            time: view.time,
+            time: self.step * view.step as f64,
             frame,
             measured: measured.then(|| std::mem::replace(&mut self.carried, Carried::new(groups)).contacts),
         }
     }
     /// Counts and notes what happened in the step just made; events, if there were any.
     pub(super) fn observe<R: Scalar, const D: usize>(&mut self, world: &World<R, D>) -> Option<Vec<Event>> {
-        let (step, time) = (world.step_number(), world.time());
+        let step = world.step_number();
+        let time = self.step * step as f64;
         let mut group = 0;
         for (id, &met) in world.met().iter().enumerate() {
             while self.ends.get(group).is_some_and(|&end| id as u32 >= end) {
