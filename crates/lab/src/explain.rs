@@ -4,11 +4,11 @@ use crate::run::recorder::Carried;
 use crate::run::tables;
 use crate::run::{KEYFRAMES, kind};
 use crate::scenario::{Scenario, build};
-use crate::store::log::Log;
+use crate::store::log::{Log, Record};
 use crate::store::{StoreError, folder};
 use crate::with_types;
 use serde_json::{Value as Json, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use swarm::World;
 use swarm::engine::Checkpoint;
 use swarm::engine::explain::{Explanation, Seen, Told};
@@ -138,59 +138,114 @@ pub fn at(folder: &Path, frame: u64, agent: u32) -> Result<Json, StoreError> {
     let sets = file("set").and_then(Json::as_array).into_iter().flatten();
     let sets: Vec<String> = sets.filter_map(|set| set.as_str().map(str::to_owned)).collect();
     let read = build::read(name, text, &sets).map_err(|problems| StoreError::Refused(problems.show(false)))?;
-    let scenario = &read.scenario;
-    with_types!(scenario, R, D => {
-        let mut world = world_at::<R, D>(folder, scenario, seed, step)?;
-        match world.explain(agent) {
-            Some(told) => Ok(json(&told, scenario)),
-            None => refused(format!("the run has {} agents, from number 0, and none of number {agent}", world.frame().columns.len())),
-        }
-    })
+    past(folder, &read.scenario, seed)?.explain(step, agent)
 }
 
-/// The world of a complete run after so many steps, computed from the nearest full state before them.
+/// The past of a complete run: any moment of it, computed again.
+pub trait Past: Send {
+    /// Explains what an agent does after so many steps, as [`json()`] writes it.
+    ///
+    /// # Errors
+    /// Where there is no such agent, or a full state cannot be read.
+    fn explain(&mut self, step: u64, agent: u32) -> Result<Json, StoreError>;
+}
+
+/// The past of the complete run in a folder. It remembers the moment it was asked for last, so that the next ones are
+/// near.
 ///
 /// # Errors
-/// Where the scenario does not make a world, or a full state cannot be read.
-pub fn world_at<R: Scalar, const D: usize>(
-    folder: &Path,
-    scenario: &Scenario,
-    seed: u64,
-    step: u64,
-) -> Result<World<R, D>, StoreError>
+/// Where the scenario does not make a world, or the file of full states cannot be read.
+pub fn past(folder: &Path, scenario: &Scenario, seed: u64) -> Result<Box<dyn Past>, StoreError> {
+    with_types!(scenario, R, D => Ok(Box::new(Again::<R, D>::open(folder, scenario, seed)?)))
+}
+
+/// A world that is computed again.
+struct Again<R: Scalar, const D: usize> {
+    world: World<R, D>,
+    scenario: Scenario,
+    path: PathBuf,
+    log: Log,
+    /// Full states in the order of their steps, with the step where it is known.
+    states: Vec<(Record, Option<u64>)>,
+    start: Checkpoint<R, D>,
+}
+
+impl<R: Scalar, const D: usize> Again<R, D>
 where
     Models: Catalogue<R, D>,
 {
-    let plan = build::plan::<R, D>(scenario, seed, 1)
-        .map_err(|wrongs| StoreError::Refused(wrongs.first().map_or_else(String::new, |wrong| wrong.what.clone())))?;
-    let mut world = World::new(plan).map_err(|error| StoreError::Refused(error.to_string()))?;
-    let path = folder.join(KEYFRAMES);
-    let (mut log, records) = Log::open_to_read(&path)?;
-    let like = world.save();
-    // the last that is not later: they stand in the order of their steps
-    let (mut early, mut late) = (0, records.len());
-    let mut nearest = None;
-    while early < late {
-        let middle = early.midpoint(late);
-        if records[middle].kind != kind::KEYFRAME {
+    fn open(folder: &Path, scenario: &Scenario, seed: u64) -> Result<Self, StoreError> {
+        let plan = build::plan::<R, D>(scenario, seed, 1).map_err(|wrongs| {
+            StoreError::Refused(wrongs.first().map_or_else(String::new, |wrong| wrong.what.clone()))
+        })?;
+        let world = World::new(plan).map_err(|error| StoreError::Refused(error.to_string()))?;
+        let path = folder.join(KEYFRAMES);
+        let (log, records) = Log::open_to_read(&path)?;
+        if records.iter().any(|record| record.kind != kind::KEYFRAME) {
             return Err(StoreError::Damaged(format!("`{}` holds something that is no state", path.display())));
         }
-        let bytes = log.read(&records[middle])?;
-        let state = Carried::split(&bytes, world.groups().len())
-            .and_then(|(_, state)| Checkpoint::from_bytes(state, &like))
-            .ok_or_else(|| StoreError::Damaged(format!("a state in `{}` does not fit", path.display())))?;
-        if state.step() <= step {
-            nearest = Some(state);
-            early = middle + 1;
-        } else {
-            late = middle;
+        let states = records.into_iter().map(|record| (record, None)).collect();
+        Ok(Self { start: world.save(), world, scenario: scenario.clone(), path, log, states })
+    }
+    fn state(&mut self, number: usize) -> Result<Checkpoint<R, D>, StoreError> {
+        let bytes = self.log.read(&self.states[number].0)?;
+        let state = Carried::split(&bytes, self.world.groups().len())
+            .and_then(|(_, state)| Checkpoint::from_bytes(state, &self.start))
+            .ok_or_else(|| StoreError::Damaged(format!("a state in `{}` does not fit", self.path.display())))?;
+        self.states[number].1 = Some(state.step());
+        Ok(state)
+    }
+    /// The number of full states that are not later than a step.
+    fn states_until(&mut self, step: u64) -> Result<usize, StoreError> {
+        let (mut early, mut late) = (0, self.states.len());
+        while early < late {
+            let middle = early.midpoint(late);
+            let there = match self.states[middle].1 {
+                Some(there) => there,
+                None => self.state(middle)?.step(),
+            };
+            if there <= step {
+                early = middle + 1;
+            } else {
+                late = middle;
+            }
+        }
+        Ok(early)
+    }
+    /// Brings the world to the beginning of a step.
+    fn go_to(&mut self, step: u64) -> Result<(), StoreError> {
+        let until = self.states_until(step)?;
+        let nearest = until.checked_sub(1);
+        let from = nearest.and_then(|nearest| self.states[nearest].1).unwrap_or(0);
+        if !(from..=step).contains(&self.world.step_number()) {
+            let state = match nearest {
+                Some(nearest) => self.state(nearest)?,
+                None => self.start.clone(),
+            };
+            self.world.restore(&state).map_err(|error| StoreError::Damaged(error.to_string()))?;
+        }
+        self.world.run(step.saturating_sub(self.world.step_number()));
+        Ok(())
+    }
+}
+
+impl<R: Scalar, const D: usize> Past for Again<R, D>
+where
+    Models: Catalogue<R, D>,
+{
+    fn explain(&mut self, step: u64, agent: u32) -> Result<Json, StoreError> {
+        let agents = self.world.frame().columns.len();
+        if agent as usize >= agents {
+            return Err(StoreError::Refused(format!(
+                "the run has {agents} agents, from number 0, and none of number {agent}"
+            )));
+        }
+        self.go_to(step)?;
+        match self.world.explain(agent) {
+            Some(told) => Ok(json(&told, &self.scenario)),
+            None => Err(StoreError::Refused(format!("there is no agent {agent}"))),
         }
     }
-    if let Some(state) = nearest {
-        world.restore(&state).map_err(|error| StoreError::Damaged(error.to_string()))?;
-    }
-    world.run(step.saturating_sub(world.step_number()));
-    Ok(world)
 }
 
 #[cfg(test)]
@@ -198,7 +253,6 @@ where
 mod tests {
     use super::*;
     use crate::run::{End, Request, Watch, run};
-    use std::path::PathBuf;
 
     struct Nobody;
     impl Watch for Nobody {
@@ -285,6 +339,12 @@ interval = 1
             for frame in [0, 1, last / 2, last - 1, last] {
                 let told = at(&folder, frame, 11).unwrap();
                 assert_eq!(told, live(&read, first + frame * every, 11), "{name} frame {frame}");
+            }
+            // forth and back, on both sides of a full state
+            let mut past = past(&folder, &read.scenario, 7).unwrap();
+            for frame in [last, 0, last - 1, last - 3, 1, last / 2, last] {
+                let step = first + frame * every;
+                assert_eq!(past.explain(step, 11).unwrap(), live(&read, step, 11), "{name} frame {frame}");
             }
             assert!(at(&folder, last + 1, 0).unwrap_err().to_string().contains(&format!("frames 0 to {last}")));
             assert!(at(&folder, 0, 5000).unwrap_err().to_string().contains("none of number 5000"));

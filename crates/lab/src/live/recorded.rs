@@ -1,6 +1,7 @@
 //! A recorded run to scrub through.
 
 use super::{LiveError, Shown, metrics_json, obstacles, packed, space_json};
+use crate::explain::{self, Past};
 use crate::run::{METRICS, TRAJECTORY};
 use crate::scenario::build::{self, Read, Schedule};
 use crate::store::StoreError;
@@ -26,6 +27,8 @@ pub struct Recorded {
     block: (usize, Vec<Values>),
     /// Names of the states, where there is a column of them.
     label: Option<(usize, &'static str, &'static [&'static str])>,
+    /// What explains its agents, once somebody has asked.
+    past: Option<Box<dyn Past>>,
     /// The scene's parts that the plan tells.
     scene: Json,
     metrics: Json,
@@ -79,6 +82,7 @@ impl Recorded {
             starts,
             block: (usize::MAX, Vec::new()),
             label,
+            past: None,
             scene,
             metrics,
         };
@@ -259,8 +263,16 @@ impl Shown for Recorded {
         Some(self.metrics.clone())
     }
     fn explain(&mut self, agent: u32) -> Result<Json, LiveError> {
-        // computed again from the nearest full state, never stored
-        Ok(crate::explain::at(&self.folder, self.at, agent)?)
+        if agent as usize >= self.agents {
+            return Err(LiveError::Request(format!("there is no agent {agent}")));
+        }
+        let step = self.step();
+        let past = match &mut self.past {
+            Some(past) => past,
+            // only now: most runs are watched without it
+            empty => empty.insert(explain::past(&self.folder, &self.read.scenario, self.seed)?),
+        };
+        Ok(past.explain(step, agent)?)
     }
     fn seek(&mut self, frame: u64) -> Result<(), LiveError> {
         self.at = frame.min(self.frames - 1);

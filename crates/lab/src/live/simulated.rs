@@ -1,6 +1,7 @@
 //! A simulation that runs while one watches, and changes while it runs.
 
 use super::{LiveError, Shown, controls, coordinates, metrics_json, obstacles, packed, space_json};
+use crate::explain;
 use crate::scenario::build::{self, Read};
 use crate::scenario::metrics_of;
 use crate::with_types;
@@ -212,9 +213,10 @@ where
         None
     }
     fn explain(&mut self, agent: u32) -> Result<Json, LiveError> {
-        let told = self.world.explain(agent);
-        let told = told.ok_or_else(|| LiveError::Request(format!("there is no agent {agent}")))?;
-        Ok(crate::explain::json(&told, &self.read.scenario))
+        match self.world.explain(agent) {
+            Some(told) => Ok(explain::json(&told, &self.read.scenario)),
+            None => Err(LiveError::Request(format!("there is no agent {agent}"))),
+        }
     }
     fn seek(&mut self, _: u64) -> Result<(), LiveError> {
         Err(LiveError::Request("a simulation goes forward; record it with `flockworks run` to go back".into()))

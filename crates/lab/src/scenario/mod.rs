@@ -215,12 +215,6 @@ form! {
     }
 }
 
-impl Default for Measure {
-    fn default() -> Self {
-        Self { metrics: None, interval: None, parameters: Named::default() }
-    }
-}
-
 impl Scenario {
     /// Ids of the metrics that are measured.
     pub fn metrics(&self) -> Vec<String> {
@@ -273,7 +267,7 @@ form! {
         /// What is kept of the motion.
         record: Record = [Record::default()], "", Any;
         /// What is measured.
-        measure: Measure = [Measure::default()], "", Any;
+        measure: Measure = [Measure { metrics: None, interval: None, parameters: Named::default() }], "", Any;
     }
 }
 
