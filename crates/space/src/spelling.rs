@@ -8,7 +8,11 @@ pub fn nearest<'a>(name: &str, among: impl Iterator<Item = &'a str>) -> Option<&
     let far = |other: &str| {
         let distance = distance(name, other);
         // one that begins like the other comes after every slip of the keys and before all else
-        if distance <= enough { Some(distance) } else { (begins(other, name) || begins(name, other)).then_some(usize::MAX) }
+        if distance <= enough {
+            Some(distance)
+        } else {
+            (begins(other, name) || begins(name, other)).then_some(usize::MAX)
+        }
     };
     among.filter_map(|other| Some((far(other)?, other))).min_by_key(|&(far, _)| far).map(|(_, other)| other)
 }

@@ -195,9 +195,8 @@ where
             rows.push(json!({ "group": name, "values": values }));
         };
         // the dead are not measured
-        let lives = |row: &usize| {
-            self.world.mortality().is_none_or(|column| frame.columns.state[column][*row] > R::ZERO)
-        };
+        let lives =
+            |row: &usize| self.world.mortality().is_none_or(|column| frame.columns.state[column][*row] > R::ZERO);
         let by_id = frame.rows_by_id();
         let living = |ids: std::ops::Range<usize>| by_id[ids].iter().copied().filter(lives).collect::<Vec<_>>();
         for group in frame.groups {

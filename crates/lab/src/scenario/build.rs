@@ -558,7 +558,10 @@ fn states_in_range<R, const D: usize>(model: &str, start: &plan::Start<R, D>) ->
             ColumnKind::Count => (&|v| v >= 0.0 && v.fract() == 0.0, "a whole number of 0 or more".to_owned()),
             ColumnKind::Label(names) => {
                 let most = names.len() as f64;
-                (&move |v| v >= 0.0 && v < most && v.fract() == 0.0, format!("the place, from 0, in {}", names.join(", ")))
+                (
+                    &move |v| v >= 0.0 && v < most && v.fract() == 0.0,
+                    format!("the place, from 0, in {}", names.join(", ")),
+                )
             }
         };
         if let Some(wrong) = values.iter().find(|&&v| !fits(v)) {

@@ -74,10 +74,7 @@ form! {
 
 impl Region {
     /// The corners; wrongs carry paths below `path`.
-    pub(super) fn corners<R: Real, const D: usize>(
-        &self,
-        path: &str,
-    ) -> Result<(Vector<R, D>, Vector<R, D>), Wrong> {
+    pub(super) fn corners<R: Real, const D: usize>(&self, path: &str) -> Result<(Vector<R, D>, Vector<R, D>), Wrong> {
         let low: Vector<R, D> = at_path(&self.low, &format!("{path}.low"))?;
         let high: Vector<R, D> = at_path(&self.high, &format!("{path}.high"))?;
         if (0..D).any(|a| low[a] > high[a]) {
