@@ -238,10 +238,10 @@ pub fn run(options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
 /// The summary of a complete run.
 fn told(request: &Request, outcome: &Outcome, out: &mut dyn Write) -> Result<(), Fault> {
     let folder = &outcome.folder;
-    let page = of_run::page(folder, &request.read, outcome.seed, request.quick, &request.program)?;
-    writeln!(out, "{}", page.title)?;
-    let widest = page.summary.iter().map(|fact| fact.label.chars().count()).max().unwrap_or(0);
-    for fact in &page.summary {
+    let summary = of_run::summary_of(folder, &request.read, outcome.seed, request.quick)?;
+    writeln!(out, "{}", request.read.scenario.title)?;
+    let widest = summary.iter().map(|fact| fact.label.chars().count()).max().unwrap_or(0);
+    for fact in &summary {
         writeln!(out, "  {:<widest$}  {}", fact.label, fact.value)?;
     }
     if outcome.end == End::Already {

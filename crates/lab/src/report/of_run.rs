@@ -22,8 +22,22 @@ const REPLAYED_FRAMES: usize = 600;
 const DRAWN: usize = 5_000;
 /// Kept frames before a moment that make up its trails.
 const TRAIL: usize = 12;
-/// Bytes of a table that is put into the page.
-const DOWNLOADED: usize = 2 << 20;
+/// Bytes, about, of a table that is put into the page.
+const DOWNLOADED: u64 = 2 << 20;
+
+/// The numbers that sum up the run in a folder.
+///
+/// # Errors
+/// Where its metrics cannot be read.
+pub fn summary_of(folder: &Path, read: &Read, seed: u64, quick: bool) -> Result<Vec<Fact>, StoreError> {
+    let schedule = scheduled(&read.scenario, quick)?;
+    let measured = Measured::read(&Table::open(&folder.join(METRICS))?)?;
+    Ok(summary(&read.scenario, &schedule, seed, &measured))
+}
+
+fn scheduled(scenario: &Scenario, quick: bool) -> Result<Schedule, StoreError> {
+    build::schedule(scenario, quick).map_err(|wrong| StoreError::Refused(format!("{}: {}", wrong.path, wrong.what)))
+}
 
 /// The page of the run in a folder.
 ///
@@ -31,8 +45,7 @@ const DOWNLOADED: usize = 2 << 20;
 /// Where a table cannot be read.
 pub fn page(folder: &Path, read: &Read, seed: u64, quick: bool, program: &str) -> Result<Page, StoreError> {
     let scenario = &read.scenario;
-    let schedule = build::schedule(scenario, quick)
-        .map_err(|wrong| StoreError::Refused(format!("{}: {}", wrong.path, wrong.what)))?;
+    let schedule = scheduled(scenario, quick)?;
     let metrics = Table::open(&folder.join(METRICS))?;
     let measured = Measured::read(&metrics)?;
     let mut figures = Vec::new();
@@ -45,20 +58,23 @@ pub fn page(folder: &Path, read: &Read, seed: u64, quick: bool, program: &str) -
     } else {
         figures.extend(measured.figures(scenario));
     }
-    let mut downloads = vec![Download {
-        file: "metrics.csv".into(),
-        about: "Every metric at every measurement, a row for each group.".into(),
-        csv: csv(&metrics)?,
-    }];
+    let mut downloads = Vec::new();
+    let fits = |table: &Table| table.rows() * table.headings().len() as u64 * 10 <= DOWNLOADED;
+    if fits(&metrics) {
+        downloads.push(Download {
+            file: "metrics.csv".into(),
+            about: "Every metric at every measurement, a row for each group.".into(),
+            csv: csv(&metrics)?,
+        });
+    }
     let events = Table::open(&folder.join(EVENTS))?;
-    if events.rows() > 0 {
+    if events.rows() > 0 && fits(&events) {
         downloads.push(Download {
             file: "events.csv".into(),
             about: "What happened: food eaten, deaths, obstacles that came and went.".into(),
             csv: csv(&events)?,
         });
     }
-    downloads.retain(|table| table.csv.len() <= DOWNLOADED);
     let name = read.sources.name(0);
     let sets: Vec<String> = (1..)
         .map(|k| read.sources.text(k))
@@ -355,8 +371,19 @@ fn standing<R: Real, const D: usize>(obstacle: &Obstacle<R, D>, size: &[Option<f
 }
 
 /// Positions and velocities of the agents that are drawn, frame by frame.
+///
+/// Only the frames that are shown are held: a long run has more than a page, or memory, has room for.
 struct Motion {
     agents: usize,
+    /// Number of kept frames.
+    frames: usize,
+    /// The frames that are held, ascending.
+    held: Vec<usize>,
+    /// Those of them that are replayed, `[..]` of `held`, and how many kept frames lie between two.
+    replayed: Vec<usize>,
+    every: usize,
+    /// Those of them that are scenes, and where each one's trail begins, by place in `held`.
+    scenes: Vec<(usize, usize)>,
     /// Group of each drawn agent.
     group: Vec<usize>,
     /// Whether only some agents are drawn.
@@ -385,16 +412,42 @@ impl Motion {
         let mut wanted = vec![frame, t, id];
         wanted.extend((0..dimensions).map(|a| x + a));
         wanted.extend((0..dimensions).map(|a| vx + a));
+        let most = (REPLAYED / group.len().max(1)).clamp(2, REPLAYED_FRAMES);
+        let between = frames.div_ceil(most).max(1);
+        let replayed: Vec<usize> = (0..frames).step_by(between).collect();
+        let count = if dimensions == 3 { 3 } else { 4 };
+        let mut scenes: Vec<usize> = (0..count).map(|k| k * frames.saturating_sub(1) / (count - 1)).collect();
+        scenes.dedup();
+        scenes.retain(|&frame| frame < frames);
+        let mut held = replayed.clone();
+        scenes.iter().for_each(|&frame| held.extend(frame.saturating_sub(TRAIL)..=frame));
+        held.sort_unstable();
+        held.dedup();
+        let place = |frame: usize| held.partition_point(|&other| other < frame);
         let blank = || vec![[f32::NAN; 3]; group.len()];
         let mut motion = Self {
             agents,
+            frames,
+            every: between,
+            replayed: replayed.iter().map(|&frame| place(frame)).collect(),
+            scenes: scenes.iter().map(|&frame| (place(frame), place(frame.saturating_sub(TRAIL)))).collect(),
             some: every > 1,
-            time: vec![0.0; frames],
-            position: (0..frames).map(|_| blank()).collect(),
-            heading: (0..frames).map(|_| vec![[0.0; 3]; group.len()]).collect(),
+            time: vec![0.0; held.len()],
+            position: held.iter().map(|_| blank()).collect(),
+            heading: held.iter().map(|_| vec![[0.0; 3]; group.len()]).collect(),
             group,
+            held,
         };
+        let mut first = 0;
         for block in 0..table.groups() {
+            // rows stand in the order of the frames
+            let begin = first / agents.max(1) as u64;
+            first += table.rows_in(block);
+            let end = first.div_ceil(agents.max(1) as u64);
+            let next = motion.held.partition_point(|&frame| (frame as u64) < begin);
+            if motion.held.get(next).is_none_or(|&frame| frame as u64 >= end) {
+                continue;
+            }
             let read = table.read(block, &wanted)?;
             let (Values::Long(frame), Values::Whole(id)) = (&read[0], &read[2]) else {
                 return Err(StoreError::Damaged("the trajectory has columns of other kinds".into()));
@@ -406,7 +459,8 @@ impl Motion {
                         "the trajectory names a frame or an agent that is not there".into(),
                     ));
                 }
-                motion.time[frame] = read[1].number(row);
+                let Ok(at) = motion.held.binary_search(&frame) else { continue };
+                motion.time[at] = read[1].number(row);
                 if id % every != 0 {
                     continue;
                 }
@@ -415,9 +469,8 @@ impl Motion {
                 };
                 let velocity = of(3 + dimensions);
                 let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
-                motion.position[frame][id / every] = of(3).map(|v| v as f32);
-                motion.heading[frame][id / every] =
-                    velocity.map(|v| if speed > 1e-12 { (v / speed) as f32 } else { 0.0 });
+                motion.position[at][id / every] = of(3).map(|v| v as f32);
+                motion.heading[at][id / every] = velocity.map(|v| if speed > 1e-12 { (v / speed) as f32 } else { 0.0 });
             }
         }
         Ok(motion)
@@ -474,15 +527,11 @@ impl Motion {
         }
     }
     fn scenes(&self, setting: &Setting, scenario: &Scenario) -> Option<Figure> {
-        let frames = self.time.len();
-        if frames == 0 {
+        if self.frames == 0 {
             return None;
         }
-        let wanted = if setting.dimensions == 3 { 3 } else { 4 };
-        let mut chosen: Vec<usize> = (0..wanted).map(|k| k * (frames - 1) / (wanted - 1)).collect();
-        chosen.dedup();
         let narrow = |p: [f32; 3]| p.map(f64::from);
-        let moment = |&frame: &usize| Moment {
+        let moment = |&(frame, trail): &(usize, usize)| Moment {
             time: self.time[frame],
             agents: (0..self.group.len())
                 .filter(|&k| self.position[frame][k][0].is_finite())
@@ -490,7 +539,7 @@ impl Motion {
                     group: self.group[k],
                     position: narrow(self.position[frame][k]),
                     heading: narrow(self.heading[frame][k]),
-                    trail: (frame.saturating_sub(TRAIL)..frame).map(|f| narrow(self.position[f][k])).collect(),
+                    trail: (trail..frame).map(|f| narrow(self.position[f][k])).collect(),
                 })
                 .collect(),
             items: Vec::new(),
@@ -506,17 +555,14 @@ impl Motion {
             ),
             stage: self.stage(setting, scenario),
             time_unit: scenario.units.time.clone(),
-            moments: chosen.iter().map(moment).collect(),
+            moments: self.scenes.iter().map(moment).collect(),
         }))
     }
     fn replay(&self, setting: &Setting, scenario: &Scenario) -> Option<Figure> {
-        let frames = self.time.len();
-        if frames < 2 || self.group.is_empty() {
+        if self.frames < 2 || self.group.is_empty() {
             return None;
         }
-        let most = (REPLAYED / self.group.len()).clamp(2, REPLAYED_FRAMES);
-        let every = frames.div_ceil(most).max(1);
-        let chosen: Vec<usize> = (0..frames).step_by(every).collect();
+        let (every, chosen) = (self.every, &self.replayed);
         let thinned = if every > 1 { format!(" Every {} kept frame is shown.", ordinal(every)) } else { String::new() };
         Some(Figure::Replay(Replay {
             title: "Replay".into(),
