@@ -100,6 +100,10 @@ fn threads_and_stops_change_no_byte() {
     assert_eq!(results(&once), results(&other));
 }
 
+/// Bytes of a growing file that holds a whole block, with its full state, and a part of the next: a block of the schooling
+/// study has about 700,000.
+const CONTINUABLE: u64 = 1_000_000;
+
 /// Starts a run and waits until it has written something that can be continued.
 fn started(file: &str, out: &Path) -> Child {
     let child = flockworks()
@@ -109,7 +113,7 @@ fn started(file: &str, out: &Path) -> Child {
         .spawn()
         .unwrap();
     let log = out.join("unfinished.log");
-    while std::fs::metadata(&log).map_or(0, |m| m.len()) < 200_000 {
+    while std::fs::metadata(&log).map_or(0, |m| m.len()) < CONTINUABLE {
         assert!(!out.join("report.html").exists(), "the run must be long enough to be stopped in the middle");
         std::thread::yield_now();
     }
@@ -152,7 +156,7 @@ fn ctrl_c_stops_and_the_same_command_continues() {
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    while std::fs::metadata(stopped.join("unfinished.log")).map_or(0, |m| m.len()) < 200_000 {
+    while std::fs::metadata(stopped.join("unfinished.log")).map_or(0, |m| m.len()) < CONTINUABLE {
         std::thread::yield_now();
     }
     let id = child.id().to_string();
