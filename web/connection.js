@@ -24,10 +24,11 @@ export class Connection {
     socket.binaryType = "arraybuffer";
     this.socket = socket;
     socket.addEventListener("open", () => {
+      if (this.ended) { socket.close(); return; }
       this.pause = FIRST_PAUSE;
       this.told.state("open", 0);
     });
-    socket.addEventListener("message", ({ data }) => { if (socket === this.socket) this.receive(data); });
+    socket.addEventListener("message", ({ data }) => { if (socket === this.socket && !this.ended) this.receive(data); });
     socket.addEventListener("close", () => {
       if (socket !== this.socket) return;
       this.socket = null;
@@ -65,6 +66,7 @@ export class Connection {
     this.ended = true;
     clearTimeout(this.timer);
     removeEventListener("online", this.again);
-    this.socket?.close();
+    // one that is not open yet is closed when it is: browsers complain of it otherwise
+    if (this.socket?.readyState !== WebSocket.CONNECTING) this.socket?.close();
   }
 }
