@@ -1,7 +1,6 @@
 //! What one agent does in one step, as JSON: live, or at any frame of a complete run, computed again.
 
 use crate::run::recorder::Carried;
-use crate::run::tables;
 use crate::run::{KEYFRAMES, kind};
 use crate::scenario::{Scenario, build};
 use crate::store::log::{Log, Record};
@@ -24,7 +23,7 @@ pub fn json(told: &Explanation, scenario: &Scenario) -> Json {
     let degrees = |angle: Option<f64>| angle.map(f64::to_degrees);
     let length = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
     let value = |stage: &str, name: &str, value: &Told, unit: &str| {
-        let unit = tables::unit(unit, scenario);
+        let unit = scenario.units.of(unit);
         let angle = unit.starts_with("rad");
         let value = match value {
             Told::Number(number) if angle => json!(number.to_degrees()),
@@ -35,7 +34,7 @@ pub fn json(told: &Explanation, scenario: &Scenario) -> Json {
     };
     let mut values: Vec<Json> = told.values.iter().map(|v| value(v.stage, &v.name, &v.value, v.unit)).collect();
     if !told.components.is_empty() {
-        let unit = tables::unit(told.unit, scenario);
+        let unit = scenario.units.of(told.unit);
         values.push(value("motion", "unit of the components", &Told::Word(unit), "-"));
     }
     if let Some(sum) = &told.sum {
@@ -175,10 +174,7 @@ where
     Models: Catalogue<R, D>,
 {
     fn open(folder: &Path, scenario: &Scenario, seed: u64) -> Result<Self, StoreError> {
-        let plan = build::plan::<R, D>(scenario, seed, 1).map_err(|wrongs| {
-            StoreError::Refused(wrongs.first().map_or_else(String::new, |wrong| wrong.what.clone()))
-        })?;
-        let world = World::new(plan).map_err(|error| StoreError::Refused(error.to_string()))?;
+        let world = build::world::<R, D>(scenario, seed, 1).map_err(StoreError::Refused)?;
         let path = folder.join(KEYFRAMES);
         let (log, records) = Log::open_to_read(&path)?;
         if records.iter().any(|record| record.kind != kind::KEYFRAME) {

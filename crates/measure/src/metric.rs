@@ -50,6 +50,8 @@ pub struct MetricCard {
     pub symbol: &'static str,
     /// Unit: `1`, `length`, `length/time`, `deg`.
     pub unit: &'static str,
+    /// Least and greatest value, where the metric has natural ones.
+    pub range: Option<(f64, f64)>,
     /// The formula, as text.
     pub definition: &'static str,
     /// Where the definition comes from.

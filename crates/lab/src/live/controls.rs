@@ -23,9 +23,7 @@ pub(super) fn controls(scenario: &Scenario, tree: &Node) -> Json {
             };
             let alias = descriptor.alias.filter(|alias| written.is_some_and(|node| node.get(alias).is_some()));
             let path = format!("{below}.{}", alias.unwrap_or(descriptor.name));
-            let unit = unit_in_files(&descriptor)
-                .replace("length", &scenario.units.length)
-                .replace("time", &scenario.units.time);
+            let unit = scenario.units.of(&unit_in_files(&descriptor));
             list.extend(control(&descriptor, &path, name, &unit, &value, &default));
         }
     }

@@ -146,15 +146,10 @@ fn space_json<R: Real, const D: usize>(space: &Space<R, D>, places: impl Iterato
 
 /// The metrics of a scenario as the scene lists them.
 fn metrics_json(scenario: &Scenario) -> Json {
-    let unit = |unit: &str| unit.replace("length", &scenario.units.length).replace("time", &scenario.units.time);
     let card = |id: &String| {
         let card = measure::metrics::LIST.iter().find(|card| card.id == id)?;
-        let natural = matches!(
-            card.id,
-            "polarisation" | "weighted_polarisation" | "angular_momentum" | "largest_group_share" | "balance"
-        );
-        let range = natural.then_some([0.0, 1.0]);
-        Some(json!({ "id": card.id, "title": card.title, "unit": unit(card.unit), "range": range }))
+        let range = card.range.map(|(low, high)| [low, high]);
+        Some(json!({ "id": card.id, "title": card.title, "unit": scenario.units.of(card.unit), "range": range }))
     };
     scenario.metrics().iter().filter_map(card).collect()
 }

@@ -127,10 +127,7 @@ fn scene(
     label: Option<(&str, &[&str])>,
 ) -> Result<Json, LiveError> {
     let (space, groups) = with_types!(scenario, R, D => {
-        let plan = build::plan::<R, D>(scenario, seed, 1).map_err(|wrongs| {
-            LiveError::Request(wrongs.first().map_or_else(String::new, |wrong| wrong.what.clone()))
-        })?;
-        let world = swarm::World::new(plan).map_err(|error| LiveError::Request(error.to_string()))?;
+        let world = build::world::<R, D>(scenario, seed, 1).map_err(LiveError::Request)?;
         let frame = world.frame();
         let places = (0..frame.columns.len())
             .map(|row| space::Vector(frame.columns.position(row).0.map(|c| space::Real::to_f64(c))));

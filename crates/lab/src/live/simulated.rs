@@ -76,11 +76,7 @@ fn made<R: Scalar, const D: usize>(
 where
     Models: Catalogue<R, D>,
 {
-    let plan = build::plan::<R, D>(&read.scenario, seed, threads).map_err(|wrongs| {
-        let lines: Vec<String> = wrongs.iter().map(|wrong| format!("{}: {}", wrong.path, wrong.what)).collect();
-        LiveError::Request(lines.join("; "))
-    })?;
-    let world = World::new(plan).map_err(|error| LiveError::Request(error.to_string()))?;
+    let world = build::world::<R, D>(&read.scenario, seed, threads).map_err(LiveError::Request)?;
     let metrics = metrics_of::<D>(&read.scenario).map_err(|wrong| LiveError::Request(wrong.what))?;
     Ok((world, metrics))
 }

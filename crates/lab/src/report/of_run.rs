@@ -154,20 +154,12 @@ impl Measured {
         while column < self.columns.len() {
             let (name, unit) = &self.columns[column];
             if let Some(card) = measure::metrics::LIST.iter().find(|card| card.id == name) {
-                let natural = matches!(
-                    card.id,
-                    "polarisation" | "weighted_polarisation" | "angular_momentum" | "largest_group_share" | "balance"
-                );
                 figures.push(Figure::Lines(Lines {
                     id: card.id.into(),
                     title: card.title.into(),
                     about: card.definition.split_whitespace().collect::<Vec<_>>().join(" "),
                     x: x.clone(),
-                    y: Axis {
-                        label: card.title.to_lowercase(),
-                        unit: unit.clone(),
-                        range: natural.then_some((0.0, 1.0)),
-                    },
+                    y: Axis { label: card.title.to_lowercase(), unit: unit.clone(), range: card.range },
                     lines: (0..self.groups.len()).map(|g| self.line(g, column, self.groups[g].clone())).collect(),
                 }));
                 column += 1;

@@ -13,7 +13,6 @@ use serde_json::{Value as Json, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
-use swarm::World;
 use swarm::engine::Checkpoint;
 use swarm::models::{Catalogue, Models};
 use swarm::parameters::Scalar;
@@ -200,8 +199,8 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     let schedule = build::schedule(&request.read.scenario, request.quick)
         .map_err(|wrong| StoreError::Refused(format!("{}: {}", wrong.path, wrong.what)))?;
     // what this seed makes impossible is found before anything is written
-    with_types!(request.read.scenario, R, D => build::plan::<R, D>(&request.read.scenario, seed, 1).map(|_| ()))
-        .map_err(|wrongs| impossible(seed, &wrongs))?;
+    with_types!(request.read.scenario, R, D => build::world::<R, D>(&request.read.scenario, seed, 1).map(|_| ()))
+        .map_err(StoreError::Refused)?;
     let folder = Folder::claim(&path)?;
     // another process may have had the folder in the meantime
     let before = folder::manifest(&path)?;
@@ -251,12 +250,6 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     let growing = folder.file(GROWING);
     std::fs::remove_file(&growing).map_err(|error| StoreError::io("remove", &growing, error))?;
     Ok(outcome(End::Complete, updates, seconds))
-}
-
-/// What cannot be with a seed, though it could with another.
-fn impossible(seed: u64, wrongs: &[build::Wrong]) -> StoreError {
-    let lines: Vec<String> = wrongs.iter().map(|wrong| format!("{}: {}", wrong.path, wrong.what)).collect();
-    StoreError::Refused(format!("with the seed {seed}: {}", lines.join("; ")))
 }
 
 fn new_manifest(request: &Request, identity: Json, seed: u64, schedule: &Schedule) -> Json {
@@ -318,8 +311,7 @@ where
     Models: Catalogue<R, D>,
 {
     let scenario = &request.read.scenario;
-    let plan = build::plan::<R, D>(scenario, seed, threads).map_err(|wrongs| impossible(seed, &wrongs))?;
-    let mut world = World::new(plan).map_err(|error| StoreError::Refused(format!("with the seed {seed}: {error}")))?;
+    let mut world = build::world::<R, D>(scenario, seed, threads).map_err(StoreError::Refused)?;
     let growing = folder.file(GROWING);
     let (mut log, mut from, mut carried) = (None, 0, recorder::Carried::new(world.groups().len()));
     if growing.exists() {
@@ -399,10 +391,7 @@ fn finish(folder: &Folder, request: &Request, seed: u64) -> Result<(), StoreErro
     let (mut log, records) = Log::open(&folder.file(GROWING))?;
     let scenario = &request.read.scenario;
     let (frames, metrics, events) = with_types!(scenario, R, D => {
-        let plan = build::plan::<R, D>(scenario, seed, 1).map_err(|wrongs| {
-            StoreError::Refused(wrongs.first().map_or_else(String::new, |wrong| wrong.what.clone()))
-        })?;
-        let world = World::new(plan).map_err(|error| StoreError::Refused(error.to_string()))?;
+        let world = build::world::<R, D>(scenario, seed, 1).map_err(StoreError::Refused)?;
         let metrics = crate::scenario::metrics_of::<D>(scenario).map_err(|wrong| StoreError::Refused(wrong.what))?;
         let all = tables::Tables::new(&world, scenario, &metrics);
         (all.frames, all.metrics, all.events)

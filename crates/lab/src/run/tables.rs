@@ -39,11 +39,6 @@ pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// Names of the events, in the order of their numbers.
 pub(crate) const EVENTS: [&str; 4] = ["ate", "died", "obstacle_appeared", "obstacle_disappeared"];
 
-/// A unit as this scenario writes it: `length/time` becomes `m/s`.
-pub(crate) fn unit(of: &str, scenario: &Scenario) -> String {
-    of.replace("length", &scenario.units.length).replace("time", &scenario.units.time)
-}
-
 /// A share of members in a named state, as a column name.
 pub fn share_name(column: &str, label: &str) -> String {
     format!("{column}_{}", label.replace(' ', "_"))
@@ -77,7 +72,12 @@ impl Tables {
             frames.push(Heading::new(&format!("v{axis}"), &speed, "Velocity.", real));
         }
         for column in declared {
-            frames.push(Heading::new(column.name, &unit(column.unit, scenario), column.about, kind_of(column, real)));
+            frames.push(Heading::new(
+                column.name,
+                &scenario.units.of(column.unit),
+                column.about,
+                kind_of(column, real),
+            ));
         }
         let mut rows = vec![
             Heading::new("run", "1", "Number of the run: 0.", Kind::Whole),
@@ -88,7 +88,7 @@ impl Tables {
         ];
         for metric in metrics {
             let card = metric.card();
-            rows.push(Heading::new(card.id, &unit(card.unit, scenario), card.definition, Kind::Double));
+            rows.push(Heading::new(card.id, &scenario.units.of(card.unit), card.definition, Kind::Double));
         }
         let mut labels = Vec::new();
         for column in declared {

@@ -548,6 +548,25 @@ where
     Ok(plan)
 }
 
+/// The world of a scenario with a seed.
+///
+/// # Errors
+/// What this seed makes impossible, in one sentence; a scenario that was read can be with some seed.
+pub fn world<R: Scalar, const D: usize>(
+    scenario: &Scenario,
+    seed: u64,
+    threads: usize,
+) -> Result<swarm::World<R, D>, String>
+where
+    Models: Catalogue<R, D>,
+{
+    let plan = plan::<R, D>(scenario, seed, threads).map_err(|wrongs| {
+        let lines: Vec<String> = wrongs.iter().map(|wrong| format!("{}: {}", wrong.path, wrong.what)).collect();
+        format!("with the seed {seed}: {}", lines.join("; "))
+    })?;
+    swarm::World::new(plan).map_err(|error| format!("with the seed {seed}: {error}"))
+}
+
 /// Refuses values of named states and counts that are none.
 fn states_in_range<R, const D: usize>(model: &str, start: &plan::Start<R, D>) -> Result<(), Wrong> {
     let Some(entry) = swarm::models::find(model) else { return Ok(()) };

@@ -106,7 +106,7 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
     for (parameter, given) in &group.model.parameters {
         let Some(descriptor) = descriptors.iter().find(|d| d.name == parameter) else { continue };
         let unit = unit_in_files(descriptor);
-        let unit = if unit == "1" || unit == "-" { String::new() } else { format!(" {}", in_units(&unit, scenario)) };
+        let unit = if unit == "1" || unit == "-" { String::new() } else { format!(" {}", scenario.units.of(&unit)) };
         match given {
             Given::Value(value) if *value == default_in_files(descriptor) => {}
             Given::Value(value) => {
@@ -176,10 +176,6 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
         }
     }
     text
-}
-
-fn in_units(unit: &str, scenario: &Scenario) -> String {
-    unit.replace("length", &scenario.units.length).replace("time", &scenario.units.time)
 }
 
 fn selection(choice: &Choice) -> String {

@@ -54,6 +54,13 @@ form! {
     }
 }
 
+impl Units {
+    /// A unit as this scenario writes it: `length/time` becomes `m/s`.
+    pub fn of(&self, unit: &str) -> String {
+        unit.replace("length", &self.length).replace("time", &self.time)
+    }
+}
+
 impl Default for Units {
     fn default() -> Self {
         Self { length: "unit".into(), time: "s".into() }

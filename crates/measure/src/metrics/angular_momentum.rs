@@ -20,6 +20,7 @@ impl Metric for AngularMomentum {
         title: "Angular momentum (milling)",
         symbol: "M",
         unit: "1",
+        range: Some((0.0, 1.0)),
         definition: "|mean_i unit(x_i - c) x h_i|,  c the centre,  all over members with a heading",
         source: "Couzin et al. 2002 (group angular momentum)",
         counted: Counted::Headings,

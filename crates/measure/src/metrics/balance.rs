@@ -24,6 +24,7 @@ impl Metric for Balance {
         title: "Balance of the groups",
         symbol: "H/H_max",
         unit: "1",
+        range: Some((0.0, 1.0)),
         definition: "H / ln G,  H = -sum_g p_g ln p_g,  p_g the shares of the G groups of group_count; undefined for fewer \
                      than two groups",
         source: "catalogue of models, section 5 (balance)",

@@ -15,6 +15,7 @@ impl Metric for Expanse {
         title: "Expanse",
         symbol: "E",
         unit: "length",
+        range: None,
         definition: "sqrt(mean_i |x_i - c|^2),  c the centre (circular mean on periodic axes)",
         source: "catalogue of models, section 5 (the root of the mean quadratic distance)",
         counted: Counted::Positions,

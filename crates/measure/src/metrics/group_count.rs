@@ -29,6 +29,7 @@ impl Metric for GroupCount {
         title: "Number of groups",
         symbol: "G",
         unit: "1",
+        range: None,
         definition: "number of connected components of the graph |d_ij| <= linking_distance",
         source: "catalogue of models, section 5 (group membership)",
         counted: Counted::Positions,

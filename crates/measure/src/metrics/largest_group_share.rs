@@ -22,6 +22,7 @@ impl Metric for LargestGroupShare {
         title: "Share of the largest group",
         symbol: "p_max",
         unit: "1",
+        range: Some((0.0, 1.0)),
         definition: "max_g n_g / N,  n_g the sizes of the groups of group_count",
         source: "catalogue of models, section 5 (group membership)",
         counted: Counted::Positions,

@@ -17,6 +17,7 @@ impl Metric for MeanAngularDeviation {
         title: "Mean angular deviation",
         symbol: "delta",
         unit: "deg",
+        range: None,
         definition: "mean_i of the angle between h_i and m = mean_j h_j,  over members with a heading; undefined where \
                      |m| <= 1e-6",
         source: "Huth and Wissel 1992 (where it is called polarisation)",

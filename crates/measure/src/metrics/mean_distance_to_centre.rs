@@ -13,6 +13,7 @@ impl Metric for MeanDistanceToCentre {
         title: "Mean distance to the centre",
         symbol: "R",
         unit: "length",
+        range: None,
         definition: "mean_i |x_i - c|,  c the centre (circular mean on periodic axes)",
         source: "plain mean",
         counted: Counted::Positions,

@@ -14,6 +14,7 @@ impl Metric for MeanSpeed {
         title: "Mean speed",
         symbol: "s",
         unit: "length/time",
+        range: None,
         definition: "mean_i |v_i|,  over members with a velocity",
         source: "plain mean",
         counted: Counted::Velocities,

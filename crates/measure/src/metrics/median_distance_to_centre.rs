@@ -14,6 +14,7 @@ impl Metric for MedianDistanceToCentre {
         title: "Median distance to the centre",
         symbol: "MD",
         unit: "length",
+        range: None,
         definition: "median_i |x_i - c|,  c the centre (circular mean on periodic axes); the mean of the two middle values \
                      of an even number",
         source: "catalogue of models, section 5 (the MMD of one frame)",

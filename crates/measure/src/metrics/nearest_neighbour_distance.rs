@@ -16,6 +16,7 @@ impl Metric for NearestNeighbourDistance {
         title: "Nearest-neighbour distance",
         symbol: "NND",
         unit: "length",
+        range: None,
         definition: "mean_i min_{j != i} |d_ij|,  d_ij = x_j - x_i (minimum image); two or more members",
         source: "Clark and Evans 1954; catalogue of models, section 5",
         counted: Counted::Positions,

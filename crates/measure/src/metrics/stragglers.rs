@@ -33,6 +33,7 @@ impl Metric for Stragglers {
         title: "Share of stragglers",
         symbol: "S",
         unit: "1",
+        range: None,
         definition: "share of members with min_{j != i} |d_ij| > distance; two or more members",
         source: "catalogue of models, section 5 (as a share, not a number)",
         counted: Counted::Positions,

@@ -260,6 +260,7 @@ impl Metric for BlindToTheSeam {
         title: "",
         symbol: "",
         unit: "",
+        range: None,
         definition: "",
         source: "",
         counted: Counted::Positions,

@@ -16,6 +16,7 @@ impl Metric for WeightedPolarisation {
         title: "Weighted polarisation",
         symbol: "P_v",
         unit: "1",
+        range: Some((0.0, 1.0)),
         definition: "|sum_i v_i| / sum_i |v_i|,  over members with a velocity",
         source: "the package trajectorytools, where it is called polarisation",
         counted: Counted::Velocities,
