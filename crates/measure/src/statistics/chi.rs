@@ -1,5 +1,7 @@
 //! Means over the estimate of a standard deviation, by the trapezoidal rule.
 
+use super::beta::stirling_remainder;
+
 /// Terms below this share of their sum are left out.
 pub(super) const NEGLIGIBLE: f64 = 1e-18;
 
@@ -9,16 +11,9 @@ pub(super) const NEGLIGIBLE: f64 = 1e-18;
 /// With s = exp(x) the density is exp(c + v (x - (exp(2 x) - 1) / 2)), v the degrees, nearly normal with a deviation of
 /// 1 / sqrt(2 v). `centre` is an x near the greatest product with the function.
 pub(super) fn over_deviation(degrees: f64, centre: f64, of: impl Fn(f64) -> f64) -> f64 {
-    let half = 0.5 * degrees;
     // ln of 2 (v / 2)^(v / 2) exp(-v / 2) / Gamma(v / 2)
-    let constant = if half > 50.0 {
-        // Stirling's series: the terms that cancel are left out
-        let inverse = 1.0 / half;
-        let series = inverse * (1.0 / 12.0 - inverse * inverse * (1.0 / 360.0 - inverse * inverse / 1260.0));
-        core::f64::consts::LN_2 + 0.5 * libm::log(half / core::f64::consts::TAU) - series
-    } else {
-        core::f64::consts::LN_2 + half * libm::log(half) - half - libm::lgamma(half)
-    };
+    let half = 0.5 * degrees;
+    let constant = core::f64::consts::LN_2 + 0.5 * libm::log(half / core::f64::consts::TAU) - stirling_remainder(half);
     let step = (0.4 / libm::sqrt(2.0 * degrees)).min(0.12);
     trapezoid(centre, step, |x| libm::exp(constant + degrees * (x - 0.5 * libm::expm1(2.0 * x))) * of(libm::exp(x)))
 }

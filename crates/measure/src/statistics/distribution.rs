@@ -1,10 +1,11 @@
 //! Distribution functions: upper tails that keep their digits where they are tiny, and quantiles.
 //!
-//! The incomplete beta and gamma functions are those of `statrs`, the error function that of `libm`. Every function
+//! The incomplete gamma function and the inverse error function are those of `statrs`, the error function that of `libm`. Every function
 //! takes finite arguments and at least a little more than zero degrees of freedom; tails are probabilities in [0, 1].
 
+use super::beta::incomplete_beta;
 use super::root;
-use statrs::function::{beta, gamma};
+use statrs::function::{erf, gamma};
 
 pub use super::studentised_range::{studentised_range, studentised_range_quantile, studentised_range_tail};
 
@@ -23,7 +24,7 @@ pub fn normal_quantile(p: f64) -> f64 {
     if p > 0.5 {
         return -normal_quantile(1.0 - p);
     }
-    let z = -core::f64::consts::SQRT_2 * statrs::function::erf::erfc_inv(2.0 * p);
+    let z = -core::f64::consts::SQRT_2 * erf::erfc_inv(2.0 * p);
     // one step of Newton's method takes off what the rational approximation leaves
     let slope = normal_density(z);
     if slope > 0.0 { z - (normal(z) - p) / slope } else { z }
@@ -73,18 +74,4 @@ pub fn beta_quantile(p: f64, a: f64, b: f64) -> f64 {
 /// The regularised incomplete beta function I_x(a, b).
 pub fn regularised_beta(a: f64, b: f64, x: f64) -> f64 {
     incomplete_beta(a, b, x, 1.0 - x)
-}
-
-/// I_x(a, b) at x = part / (part + rest): both shares keep their digits.
-pub(super) fn incomplete_beta(a: f64, b: f64, part: f64, rest: f64) -> f64 {
-    let x = part / (part + rest);
-    if x <= 0.0 {
-        0.0
-    } else if rest <= 0.0 {
-        1.0
-    } else if x >= (a + 1.0) / (a + b + 2.0) {
-        1.0 - beta::checked_beta_reg(b, a, rest / (part + rest)).map_or(0.0, |p| p.clamp(0.0, 1.0))
-    } else {
-        beta::checked_beta_reg(a, b, x).map_or(1.0, |p| p.clamp(0.0, 1.0))
-    }
 }

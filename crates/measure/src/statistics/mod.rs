@@ -4,8 +4,8 @@
 //! method says otherwise. Groups are slices of values, named by their place in the list; names are the caller's.
 //!
 //! All functions are pure, take sums in the order of the values, and refuse what they cannot answer with a
-//! [`StatisticsError`]: no result holds NaN or an infinite number. Distribution functions are those of `statrs`; the
-//! studentised range and the noncentral distributions are our own quadrature. `tests/independent` compares all of them
+//! [`StatisticsError`]: no result holds NaN or an infinite number. The gamma and error functions of [`distribution`]
+//! are those of `statrs` and `libm`; the rest of it is our own. `tests/independent` compares all of them
 //! with SciPy and statsmodels.
 //!
 //! ```
@@ -20,6 +20,7 @@
 //! ```
 
 mod anova;
+mod beta;
 mod check;
 mod chi;
 mod comparison;
