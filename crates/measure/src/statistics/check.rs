@@ -1,6 +1,7 @@
 //! What every statistic asks of its input: finite values, enough of them, numbers in range.
 
 use super::StatisticsError;
+use super::descriptive::squares;
 
 /// At least `needed` finite values.
 pub(super) fn values(what: &str, values: &[f64], needed: usize) -> Result<(), StatisticsError> {
@@ -20,6 +21,23 @@ pub(super) fn finite(what: &str, values: &[f64]) -> Result<(), StatisticsError> 
 pub(super) fn groups(groups: &[&[f64]], needed: usize) -> Result<(), StatisticsError> {
     at_least("groups", 2, groups.len())?;
     groups.iter().enumerate().try_for_each(|(group, of)| values(&format!("group {group}"), of, needed))
+}
+
+/// The differences of pairs, at least `needed` of them.
+pub(super) fn differences(first: &[f64], second: &[f64], needed: usize) -> Result<Vec<f64>, StatisticsError> {
+    pairs(first, second, needed)?;
+    let difference = |(a, b): (&f64, &f64)| not_overflown("a difference", a - b);
+    first.iter().zip(second).map(difference).collect()
+}
+
+/// Two samples whose values belong together, pair by pair, at least `needed` of them.
+pub(super) fn pairs(first: &[f64], second: &[f64], needed: usize) -> Result<(), StatisticsError> {
+    if first.len() != second.len() {
+        let what = "the second sample of pairs".to_owned();
+        return Err(StatisticsError::Lengths { what, expected: first.len(), found: second.len() });
+    }
+    values("the first sample", first, needed)?;
+    values("the second sample", second, needed)
 }
 
 /// A count that is large enough.
@@ -57,6 +75,24 @@ pub(super) fn spread(what: &str, squares: f64, count: usize, size: f64) -> Resul
     } else {
         Ok(())
     }
+}
+
+/// The variance of two values or more, which must have spread.
+pub(super) fn spread_of(what: &str, values: &[f64]) -> Result<f64, StatisticsError> {
+    let squares = not_overflown("a variance", squares(values))?;
+    spread(what, squares, values.len(), size(values))?;
+    Ok(squares / (values.len() - 1) as f64)
+}
+
+/// The variance within two samples, three values or more in both together.
+pub(super) fn pooled_variance(first: &[f64], second: &[f64]) -> Result<f64, StatisticsError> {
+    values("the first sample", first, 1)?;
+    values("the second sample", second, 1)?;
+    at_least("values in both samples", 3, first.len() + second.len())?;
+    let squares = not_overflown("a variance", squares(first) + squares(second))?;
+    let count = first.len() + second.len();
+    spread("within the samples", squares, count, size(first).max(size(second)))?;
+    Ok(squares / (count - 2) as f64)
 }
 
 /// The largest magnitude among values.

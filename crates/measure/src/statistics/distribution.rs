@@ -7,6 +7,7 @@ use super::beta::incomplete_beta;
 use super::root;
 use statrs::function::{erf, gamma};
 
+pub use super::noncentral::{noncentral_f_tail, noncentral_t_tail};
 pub use super::studentised_range::{studentised_range, studentised_range_quantile, studentised_range_tail};
 
 /// P(Z <= z) of the standard normal.

@@ -54,6 +54,11 @@ pub enum StatisticsError {
         /// The combination: `level 2 of factor 0 with level 1 of factor 1`.
         what: String,
     },
+    /// What one factor explains cannot be told from what others explain.
+    Confounded {
+        /// Which, counted from the constant.
+        what: String,
+    },
 }
 
 impl core::fmt::Display for StatisticsError {
@@ -68,6 +73,7 @@ impl core::fmt::Display for StatisticsError {
             Self::TooLarge { what } => write!(out, "{what}: the values are too large for f64; use a larger unit"),
             Self::Range { what, expected, found } => write!(out, "{what} must be {expected}, found {found}"),
             Self::EmptyCell { what } => write!(out, "there is no value for {what}"),
+            Self::Confounded { what } => write!(out, "{what} cannot be told apart from the terms before it"),
         }
     }
 }

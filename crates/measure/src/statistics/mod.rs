@@ -20,17 +20,49 @@
 //! ```
 
 mod anova;
+mod assumptions;
+mod autocorrelation;
 mod beta;
 mod check;
 mod chi;
 mod comparison;
+mod correlation;
 mod descriptive;
 pub mod distribution;
+mod effect_size;
 mod error;
+mod interval;
+mod linear_model;
+mod multiple;
+mod noncentral;
+mod power;
+mod rank;
+mod regression;
+mod resampling;
 mod root;
+mod sequential;
 mod studentised_range;
+mod two_samples;
 
-pub use anova::{Blocked, Effect, OneWay, Residual, blocked, one_way};
-pub use comparison::{Pair, PairComparison, letters, tukey_kramer};
+pub use anova::{
+    Blocked, Effect, Factorial, KruskalWallis, OneWay, Residual, SquaresType, Welch, blocked, factorial,
+    kruskal_wallis, one_way, welch_anova,
+};
+pub use assumptions::{NormalityTest, VarianceTest, bartlett, brown_forsythe, dagostino, levene, shapiro_wilk};
+pub use autocorrelation::{AutocorrelationTime, autocorrelation_time, autocorrelations};
+pub use comparison::{Pair, PairComparison, RankComparison, RankPair, dunn, games_howell, letters, tukey_kramer};
+pub use correlation::{Correlation, pearson, spearman};
 pub use descriptive::{Summary, mean, median, quantile, variance};
+pub use effect_size::EffectSize;
 pub use error::StatisticsError;
+pub use interval::{Interval, clopper_pearson, mean_interval, wilson};
+pub use multiple::{Correction, adjust};
+pub use power::{Design, power, trials_needed};
+pub use rank::ranks;
+pub use regression::{Line, linear_regression};
+pub use resampling::{Blocks, Estimate, Resampling, block_bootstrap, bootstrap, bootstrap_rows};
+pub use sequential::{Behaviour, Decision, SequentialTest, is_narrow, trials_for_width};
+pub use two_samples::{
+    MannWhitney, Method, TTest, Wilcoxon, mann_whitney, one_sample_t_test, paired_t_test, t_test, welch_t_test,
+    wilcoxon,
+};

@@ -10,15 +10,16 @@ pub(super) fn bracketed(of: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     if (at_a > 0.0) == (at_b > 0.0) {
         return if at_a.abs() < at_b.abs() { a } else { b };
     }
-    let (mut c, mut at_c) = (a, at_a);
     let mut share = 0.5;
     for _ in 0..200 {
         let x = a + share * (b - a);
         let at_x = of(x);
+        let (c, at_c);
         if (at_x > 0.0) == (at_a > 0.0) {
             (c, at_c) = (a, at_a);
         } else {
-            (c, at_c, b, at_b) = (b, at_b, a, at_a);
+            (c, at_c) = (b, at_b);
+            (b, at_b) = (a, at_a);
         }
         (a, at_a) = (x, at_x);
         let best = if at_a.abs() < at_b.abs() { a } else { b };

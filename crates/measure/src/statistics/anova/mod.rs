@@ -1,10 +1,16 @@
 //! Analyses of variance, one file each.
 
 mod blocked;
+mod factorial;
+mod kruskal_wallis;
 mod one_way;
+mod welch;
 
 pub use blocked::{Blocked, blocked};
+pub use factorial::{Factorial, SquaresType, factorial};
+pub use kruskal_wallis::{KruskalWallis, kruskal_wallis};
 pub use one_way::{OneWay, one_way};
+pub use welch::{Welch, welch_anova};
 
 use super::{StatisticsError, check, distribution};
 

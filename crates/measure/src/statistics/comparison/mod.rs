@@ -1,8 +1,12 @@
 //! Comparisons of all pairs of groups after an analysis of variance, one file each.
 
+mod dunn;
+mod games_howell;
 mod letters;
 mod tukey_kramer;
 
+pub use dunn::{RankComparison, RankPair, dunn};
+pub use games_howell::games_howell;
 pub use letters::letters;
 pub use tukey_kramer::tukey_kramer;
 
