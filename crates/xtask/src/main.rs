@@ -15,8 +15,10 @@ mod check;
 mod code;
 mod docs;
 mod failure;
+mod independent;
 mod list;
 mod new_model;
+mod outcome;
 mod rustfmt;
 mod test;
 mod workspace;
@@ -29,7 +31,7 @@ const USAGE: &str = "\
 cargo xtask TASK
 
   check            formatting, clippy, and the rules of the house
-  test             check, then every test, of pages in a browser too; the last line is \"N passed, N failed\"
+  test             check, then every test, of pages in a browser and against SciPy too; the last line is \"N passed, N failed\"
   bench [ARGS]     flockworks bench, release build; the arguments are passed on
   docs [--check]   write docs/models from the code, or only say whether it is up to date
   new-model NAME   write a model file and its line in the list of models

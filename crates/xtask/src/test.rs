@@ -1,8 +1,10 @@
-//! `cargo xtask test`: check, then every test, with the sum over all test binaries and the browser as the last line.
+//! `cargo xtask test`: check, then every test, with the sum over all test binaries, the browser and the independent recomputation
+//! as the last line.
 
 use crate::browser;
 use crate::check;
 use crate::failure::Failure;
+use crate::independent;
 use crate::workspace::{Workspace, not_run};
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
@@ -53,9 +55,10 @@ pub(crate) fn test(workspace: &Workspace) -> Result<(), Failure> {
         say!("a crate did not build, or a test binary did not reach its end: counted as one failure");
         sum.failed = 1;
     }
-    let pages = browser::test(workspace)?;
-    sum.passed += pages.passed;
-    sum.failed += pages.failed;
+    for outcome in [browser::test(workspace)?, independent::test(workspace)?] {
+        sum.passed += outcome.passed;
+        sum.failed += outcome.failed;
+    }
     if checked.is_err() {
         say!("the checks before the tests did not pass: see the top of this output");
     }
