@@ -61,6 +61,7 @@ fn product(deviations: &[f64], lag: usize) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

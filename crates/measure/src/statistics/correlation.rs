@@ -57,6 +57,7 @@ fn coefficient(x: &[f64], y: &[f64], confidence: f64, inflation: f64) -> Result<
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

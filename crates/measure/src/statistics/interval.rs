@@ -64,6 +64,7 @@ fn share(successes: u64, trials: u64, confidence: f64) -> Result<(), StatisticsE
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

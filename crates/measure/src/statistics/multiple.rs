@@ -60,6 +60,7 @@ pub(super) fn adjusted(p: &[f64], correction: Correction) -> Vec<f64> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

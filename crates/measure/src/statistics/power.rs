@@ -75,6 +75,7 @@ pub fn trials_needed(design: Design, effect: f64, wanted: f64, level: f64) -> Re
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

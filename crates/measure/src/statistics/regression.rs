@@ -63,6 +63,7 @@ pub fn linear_regression(x: &[f64], y: &[f64], confidence: f64) -> Result<Line, 
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

@@ -143,6 +143,7 @@ pub fn is_narrow(successes: u64, trials: u64, width: f64, confidence: f64) -> Re
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

@@ -63,6 +63,7 @@ pub fn blocked(groups: &[&[f64]]) -> Result<Blocked, StatisticsError> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
     use crate::statistics::one_way;

@@ -162,6 +162,7 @@ fn contrasts(term: &[usize], factors: &[&[usize]], levels: &[usize]) -> Vec<Vec<
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
     use crate::statistics::{blocked, one_way};

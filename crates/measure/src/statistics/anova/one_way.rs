@@ -50,6 +50,7 @@ pub fn one_way(groups: &[&[f64]]) -> Result<OneWay, StatisticsError> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

@@ -52,6 +52,7 @@ pub fn welch_anova(groups: &[&[f64]]) -> Result<Welch, StatisticsError> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
     use crate::statistics::{one_way, welch_t_test};

@@ -77,6 +77,7 @@ pub fn bartlett(groups: &[&[f64]]) -> Result<VarianceTest, StatisticsError> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

@@ -125,6 +125,7 @@ fn normal_kurtosis(kurtosis: f64, n: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

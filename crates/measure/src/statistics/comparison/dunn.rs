@@ -65,6 +65,7 @@ pub fn dunn(groups: &[&[f64]], correction: Correction, level: f64) -> Result<Ran
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

@@ -27,23 +27,14 @@ pub fn games_howell(groups: &[&[f64]], confidence: f64) -> Result<PairComparison
         let degrees = welch_degrees(a, groups[first].len(), b, groups[second].len());
         let difference = means[first] - means[second];
         let error = (0.5 * (a + b)).sqrt();
-        let statistic = difference.abs() / error;
         let critical = distribution::studentised_range_quantile(confidence, groups.len(), degrees);
-        Pair {
-            first,
-            second,
-            difference,
-            statistic,
-            degrees,
-            p: distribution::studentised_range_tail(statistic, groups.len(), degrees),
-            low: difference - critical * error,
-            high: difference + critical * error,
-        }
+        Pair::new((first, second), difference, error, degrees, groups.len(), critical)
     };
     Ok(PairComparison::new(&means, pairs_below(groups.len()).map(compare).collect(), confidence))
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
     use crate::statistics::{one_way, tukey_kramer, welch_t_test};

@@ -10,6 +10,8 @@ pub use games_howell::games_howell;
 pub use letters::letters;
 pub use tukey_kramer::tukey_kramer;
 
+use super::distribution;
+
 /// Two groups compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
@@ -29,6 +31,17 @@ pub struct Pair {
     pub low: f64,
     /// Upper end.
     pub high: f64,
+}
+
+impl Pair {
+    /// Two groups by the studentised range of `groups` means: q = |difference| / error, and intervals that hold together
+    /// with the confidence of the critical q.
+    fn new(places: (usize, usize), difference: f64, error: f64, degrees: f64, groups: usize, critical: f64) -> Self {
+        let (statistic, half) = (difference.abs() / error, critical * error);
+        let p = distribution::studentised_range_tail(statistic, groups, degrees);
+        let (first, second) = places;
+        Self { first, second, difference, statistic, degrees, p, low: difference - half, high: difference + half }
+    }
 }
 
 /// All pairs compared.

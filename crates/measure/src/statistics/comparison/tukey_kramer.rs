@@ -33,23 +33,14 @@ pub fn tukey_kramer(
         let (a, b) = (&groups[first], &groups[second]);
         let difference = a.mean - b.mean;
         let error = (0.5 * residual.mean_square * (1.0 / a.count as f64 + 1.0 / b.count as f64)).sqrt();
-        let statistic = difference.abs() / error;
-        Pair {
-            first,
-            second,
-            difference,
-            statistic,
-            degrees,
-            p: distribution::studentised_range_tail(statistic, count, degrees),
-            low: difference - critical * error,
-            high: difference + critical * error,
-        }
+        Pair::new((first, second), difference, error, degrees, count, critical)
     };
     let means: Vec<f64> = groups.iter().map(|group| group.mean).collect();
     Ok(PairComparison::new(&means, pairs_below(count).map(compare).collect(), confidence))
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
     use crate::statistics::one_way;

@@ -64,6 +64,7 @@ fn places(count: usize, blocks: Blocks, replicate: u32, resampling: &Resampling)
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
     use crate::statistics::mean;

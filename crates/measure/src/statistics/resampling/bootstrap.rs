@@ -22,14 +22,9 @@ pub fn bootstrap(
     for (place, sample) in samples.iter().enumerate() {
         check::values(&format!("group {place}"), sample, 2)?;
     }
-    // which values of a replicate each sample keeps: its own places
     let sizes: Vec<usize> = samples.iter().map(|sample| sample.len()).collect();
     interval(&sizes, resampling, |chosen| {
-        let drawn: Vec<Vec<f64>> = samples
-            .iter()
-            .zip(chosen)
-            .map(|(sample, places)| places.iter().map(|&place| sample[place]).collect())
-            .collect();
+        let drawn: Vec<Vec<f64>> = samples.iter().zip(chosen).map(|(sample, places)| taken(sample, places)).collect();
         statistic(&drawn.iter().map(Vec::as_slice).collect::<Vec<_>>())
     })
 }
@@ -49,10 +44,14 @@ pub fn bootstrap_rows(
         check::pairs(columns[0], column, 2)?;
     }
     interval(&[columns[0].len()], resampling, |chosen| {
-        let drawn: Vec<Vec<f64>> =
-            columns.iter().map(|column| chosen[0].iter().map(|&row| column[row]).collect()).collect();
+        let drawn: Vec<Vec<f64>> = columns.iter().map(|column| taken(column, &chosen[0])).collect();
         statistic(&drawn.iter().map(Vec::as_slice).collect::<Vec<_>>())
     })
+}
+
+/// The values at these places.
+fn taken(values: &[f64], places: &[usize]) -> Vec<f64> {
+    places.iter().map(|&place| values[place]).collect()
 }
 
 /// The estimate of a statistic of chosen places, for samples of these sizes.
@@ -124,6 +123,7 @@ fn acceleration(all: &[Vec<usize>], statistic: impl Fn(&[Vec<usize>]) -> Option<
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
     use crate::statistics::{mean, mean_interval};

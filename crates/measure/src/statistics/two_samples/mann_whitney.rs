@@ -76,6 +76,7 @@ fn share_at_most(first: usize, second: usize, u: usize) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

@@ -94,6 +94,7 @@ pub(in crate::statistics) fn welch_degrees(a: f64, a_count: usize, b: f64, b_cou
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 

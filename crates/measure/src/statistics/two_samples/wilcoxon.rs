@@ -74,6 +74,7 @@ fn share_at_most(count: usize, sum: usize) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 
