@@ -69,7 +69,7 @@ def analyses():
         yield Case(f"welch, {name}", "welch", given, wanted, relative=relative)
         kruskal = stats.kruskal(*made)
         yield Case(f"kruskal_wallis, {name}", "kruskal_wallis", given, {"h": kruskal.statistic, "p": kruskal.pvalue})
-        yield Case(f"tukey_kramer, {name}", "tukey_kramer", given | {"confidence": 0.95}, tukey(made, name in PUBLISHED), relative=1e-6, absolute=1e-9)
+        yield Case(f"tukey_kramer, {name}", "tukey_kramer", given | {"confidence": 0.95, "blocked": False}, tukey(made, name in PUBLISHED), relative=1e-6, absolute=1e-9)
         yield Case(f"games_howell, {name}", "games_howell", given | {"confidence": 0.9}, games_howell(made, 0.9), relative=1e-6, absolute=1e-9)
         for correction, method in CORRECTIONS.items():
             yield Case(f"dunn, {name}, {correction}", "dunn", given | {"correction": correction}, dunn(made, method))
@@ -87,7 +87,7 @@ def analyses():
     ]:
         yield Case(f"one_way of {name} by R", "one_way", {"groups": data[name]}, {"effect": {"f": f, "p": p}})
     pairs = [{"p": 7.03928782708e-07}, {"p": 0.367386929999}, {"p": 0.000297203105103}]
-    given = {"groups": data["three_groups"], "confidence": 0.95}
+    given = {"groups": data["three_groups"], "confidence": 0.95, "blocked": False}
     yield Case("tukey_kramer of three_groups by R", "tukey_kramer", given, pairs, relative=1e-6)
 
 
@@ -154,6 +154,11 @@ def models():
     fit = sm_anova.anova_lm(ols("y ~ C(a) + C(b)", table).fit(), typ=2)
     wanted = {"effect": row(fit, 0), "blocks": row(fit, 1), "residual": rest(fit)}
     yield Case("blocked", "blocked", {"groups": made}, wanted)
+    error, degrees = fit.iloc[-1]["sum_sq"] / fit.iloc[-1]["df"], fit.iloc[-1]["df"]
+    q = [abs(a.mean() - b.mean()) / math.sqrt(error / 12) for a, b in itertools.combinations(made, 2)]
+    wanted = [{"statistic": q, "p": stats.studentized_range.sf(q, 4, degrees)} for q in q]
+    given = {"groups": made, "confidence": 0.95, "blocked": True}
+    yield Case("tukey_kramer in blocks", "tukey_kramer", given, wanted, absolute=1e-10)
 
     # cells of different size, with and without interactions; a third factor; a missing cell
     table = pandas.DataFrame({"a": draw.integers(0, 3, 90), "b": draw.integers(0, 4, 90), "c": draw.integers(0, 2, 90)})

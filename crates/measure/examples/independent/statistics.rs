@@ -84,8 +84,13 @@ pub(crate) const QUESTIONS: &[Question] = &[
     }),
     ("tukey_kramer", |asked| {
         with_groups(asked, |groups| {
-            let anova = ours::one_way(groups).map_err(told)?;
-            let compared = ours::tukey_kramer(&anova.groups, &anova.residual, asked.number("confidence")?);
+            let (summaries, residual) = if asked.truth("blocked")? {
+                ours::blocked(groups).map(|anova| (anova.groups, anova.residual))
+            } else {
+                ours::one_way(groups).map(|anova| (anova.groups, anova.residual))
+            }
+            .map_err(told)?;
+            let compared = ours::tukey_kramer(&summaries, &residual, asked.number("confidence")?);
             Ok(pairs(&compared.map_err(told)?))
         })
     }),

@@ -10,9 +10,9 @@
 /// 6.4), by Lentz's method, on the side where it converges. The factor before it is written with the remainder of
 /// Stirling's series, so that large terms do not cancel (Loader 2000).
 pub(super) fn incomplete_beta(a: f64, b: f64, part: f64, rest: f64) -> f64 {
-    if part <= 0.0 {
+    if part <= 0.0 || rest == f64::INFINITY {
         0.0
-    } else if rest <= 0.0 {
+    } else if rest <= 0.0 || part == f64::INFINITY {
         1.0
     } else if part * (b + 1.0) > rest * (a + 1.0) {
         1.0 - beta_below_mean(b, a, rest, part)
@@ -90,6 +90,8 @@ mod tests {
             assert!((incomplete_beta(a, a, 0.5, 0.5) - 0.5).abs() < 1e-12, "{a}");
         }
         assert_eq!((incomplete_beta(2.0, 3.0, 0.0, 1.0), incomplete_beta(2.0, 3.0, 1.0, 0.0)), (0.0, 1.0));
+        let infinite = f64::INFINITY;
+        assert_eq!((incomplete_beta(2.0, 3.0, 1.0, infinite), incomplete_beta(2.0, 3.0, infinite, 1.0)), (0.0, 1.0));
     }
 
     #[test]

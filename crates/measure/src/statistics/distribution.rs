@@ -38,7 +38,7 @@ pub fn normal_density(z: f64) -> f64 {
 
 /// P(|T| > |t|) of Student's t.
 pub fn t_two_sided(t: f64, degrees: f64) -> f64 {
-    incomplete_beta(0.5 * degrees, 0.5, degrees, t * t)
+    f_tail(t * t, 1.0, degrees)
 }
 
 /// P(T > t) of Student's t.
@@ -54,7 +54,9 @@ pub fn t_two_sided_quantile(confidence: f64, degrees: f64) -> f64 {
 
 /// P(F > f) of Fisher's F, for f >= 0.
 pub fn f_tail(f: f64, between: f64, within: f64) -> f64 {
-    incomplete_beta(0.5 * within, 0.5 * between, within, between * f)
+    let (a, b) = (0.5 * within, 0.5 * between);
+    // an f that overflowed has the tail 0
+    if f > 1.0 { incomplete_beta(a, b, within / f, between) } else { incomplete_beta(a, b, within, between * f) }
 }
 
 /// The f with P(F > f) = tail, for 0 < tail < 1.

@@ -66,3 +66,6 @@ pub use two_samples::{
     MannWhitney, Method, TTest, Wilcoxon, mann_whitney, one_sample_t_test, paired_t_test, t_test, welch_t_test,
     wilcoxon,
 };
+
+#[cfg(test)]
+mod tests;
