@@ -133,7 +133,7 @@ pub fn trials_for_width(width: f64, confidence: f64) -> Result<u64, StatisticsEr
 
 /// Whether the share is known well enough: whether its Wilson interval is no wider than `width`.
 ///
-/// Looking after each trial does not spoil the interval much, since its width says little of where it lies.
+/// A rule for estimates: for a decision with stated errors use a [`SequentialTest`].
 ///
 /// # Errors
 /// As [`wilson`].
