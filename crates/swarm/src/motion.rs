@@ -414,6 +414,11 @@ pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
     fn bodies_meet(&self) -> bool {
         true
     }
+    /// Whether the velocity is by definition the displacement made in the step, as in way-point models: a refused move then
+    /// leaves none.
+    fn velocity_is_step(&self) -> bool {
+        false
+    }
     /// Speed at the start when the scenario gives none.
     fn initial_speed(&self) -> R {
         R::ONE
@@ -425,6 +430,15 @@ pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
     fn check(&self, _members: usize) -> Result<(), String> {
         Ok(())
     }
+}
+
+/// A model whose law is shared with others of its family: it has a card and parameters of its own, and one kernel serves all
+/// (a law compiled once for each precision and dimension, however many models there are of it).
+pub trait Variant<R: Scalar>: Law<R> {
+    /// The law, as the engine sees it.
+    type Shared: 'static;
+    /// The law with the parameters of this model.
+    fn shared(&self) -> Self::Shared;
 }
 
 /// Completes an initial state: which columns were given and which follow from others.
@@ -511,7 +525,7 @@ impl<R: Real, const D: usize> Other<'_, R, D> {
 pub type SetMasks<M> = [M; 4];
 
 /// A law that can be summed neighbour by neighbour.
-pub trait Stream<R: Scalar, const D: usize>: Law<R> {
+pub trait Stream<R: Scalar, const D: usize>: Send + Sync + 'static {
     /// The running sums.
     type Sums<L: Lanes<R>>: LaneSums<R, L, One = Self::Sums<R>>;
     /// Whether headings of neighbours are used (they are then computed once a step).

@@ -223,7 +223,8 @@ fn translation_changes_nothing() {
 }
 
 /// Models in which an agent's number means something beyond the choice among equals.
-const NUMBERED: [(&str, &str); 3] = [
+const NUMBERED: [(&str, &str); 4] = [
+    ("lch_group_bearing", "of equally large components the one with the lowest number is taken"),
     ("lch_group_pose", "of equally large components the one with the lowest number is taken"),
     ("gazi_passino_2005", "the order of members is the law"),
     ("behaviour_selection", "its draws are always live, and belong to ids"),
