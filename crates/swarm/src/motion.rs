@@ -91,6 +91,16 @@ impl<'a> Draws<'a> {
     pub fn given(&self, name: &str) -> Option<f64> {
         self.supplied(self.injected?, name).and_then(|v| v.first().copied())
     }
+    /// A scalar quantity about the other member `j`: supplied in the list by name, one for each member, or drawn by `law`.
+    #[inline(always)]
+    pub fn number_about<R: Real>(&self, name: &str, j: u32, law: impl FnOnce(&DrawStream) -> f64) -> R {
+        R::of(match self.injected {
+            None => law(&self.stream),
+            Some(injected) => {
+                injected.values.get(name).and_then(|all| all.get(j as usize)?.first().copied()).unwrap_or(0.0)
+            }
+        })
+    }
     fn supplied(&self, injected: &'a Injected, name: &str) -> Option<&'a Vec<f64>> {
         injected.values.get(name)?.get(self.stream.agent as usize)
     }

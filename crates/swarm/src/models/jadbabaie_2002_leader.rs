@@ -109,8 +109,8 @@ mod tests {
     fn all_converge_to_the_leader() {
         let mut w = Oracle::new("jadbabaie_2002_leader").set("radius", 50.0).world(&[
             ([0.0, 0.0], at(30.0)),
-            ([1.0, 0.0], at(-80.0)),
-            ([0.0, 1.0], at(140.0)),
+            ([1.0, 0.0], at(-30.0)),
+            ([0.0, 1.0], at(100.0)),
         ]);
         w.run(200);
         for id in 0..3 {

@@ -251,7 +251,17 @@ models! {
     lists helbing_2005::Helbing2005 in [2];
     lists warren_2018::Warren2018 in [2];
     streams reynolds_opensteer::ReynoldsOpensteer in [2, 3];
+    lists boids_plus::BoidsPlus in [2];
+    lists reynolds_kline::ReynoldsKline in [2, 3];
     streams boids_rule_vectors::BoidsRuleVectors in [2, 3];
+    lists_as boids_five_force::BoidsFiveForce in [2];
+    lists hartman_benes_2006::HartmanBenes2006 in [2, 3];
+    lists hauert_2011::Hauert2011 in [2];
+    lists mataric_1993::Mataric1993 in [2];
+    lists kelly_keating_1996::KellyKeating1996 in [2];
+    lists arkin_balch_1999::ArkinBalch1999 in [2];
+    lists_as turgut_2008::Turgut2008 in [2];
+    lists_as gokce_sahin_2009::GokceSahin2009 in [2];
     lists hamilton_1d::Hamilton1d in [1];
     lists_as hamilton_2d::Hamilton2d in [2, 3];
     lists_as viscido_snn::ViscidoSnn in [2, 3];
@@ -267,6 +277,11 @@ models! {
     streams competing_flocks::CompetingFlocks in [2];
     lists behaviour_selection::BehaviourSelection in [3];
     streams control_boids::ControlBoids in [2];
+    lists control_snn::ControlSnn in [2];
+    lists control_random::ControlRandom in [2];
+    lists contact_only::ContactOnly in [2, 3];
+    lists warburton_lazarus_1991::WarburtonLazarus1991 in [2, 3];
+    lists codling_2007::Codling2007 in [2, 3];
     streams boids_unit_heading::BoidsUnitHeading in [2, 3];
     streams abm_flocking::AbmFlocking in [2];
 }

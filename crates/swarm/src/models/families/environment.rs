@@ -27,16 +27,22 @@ impl<R: Scalar> Environment<R> {
         }
         away * self.weight
     }
-    /// An intended displacement, turned, of the same length; none stays none. Where intention and way out cancel, the heading is
-    /// kept.
-    pub fn steer<const D: usize>(&self, me: &mut Me<'_, R, D>, intended: Vector<R, D>) -> Vector<R, D> {
-        let (length, along) = (intended.length(), intended.unit());
+    /// The directions intended and out of the way, and what they make of an intended displacement: one of the same length; none
+    /// stays none. Where intention and way out cancel, the heading is kept.
+    pub fn turned<const D: usize>(&self, me: &Me<'_, R, D>, intended: Vector<R, D>) -> [Vector<R, D>; 3] {
+        let along = intended.unit();
+        if along.is_tiny() {
+            return [Vector::ZERO, Vector::ZERO, intended];
+        }
         let away = self.away(me);
-        let moves = !along.is_tiny();
+        [along, away, (along + away).unit_or(me.heading()) * intended.length()]
+    }
+    /// The same displacement, told.
+    pub fn steer<const D: usize>(&self, me: &mut Me<'_, R, D>, intended: Vector<R, D>) -> Vector<R, D> {
+        let [along, away, turned] = self.turned(me, intended);
         me.note("intended direction", along);
-        me.note("environment", if moves { away } else { Vector::ZERO });
-        let wanted = if moves { along + away } else { Vector::ZERO };
-        me.sum(wanted);
-        if moves { wanted.unit_or(me.heading()) * length } else { intended }
+        me.note("environment", away);
+        me.sum(along + away);
+        turned
     }
 }
