@@ -14,6 +14,7 @@ pub mod families;
 mod laws;
 #[cfg(test)]
 pub(crate) mod oracle;
+pub mod papers;
 
 /// What a model says of itself once its parameters are known: what the engine needs to build a group.
 pub struct Prepared<R, const D: usize> {
@@ -45,6 +46,10 @@ impl<R: Scalar, const D: usize> Prepared<R, D> {
     /// Time of a step.
     pub fn time_step(&self) -> R {
         self.time_step
+    }
+    /// Distances at which those sets end that have an end.
+    pub fn set_ends(&self) -> Vec<R> {
+        self.sets.iter().filter_map(|set| set.perception.shell().high).filter(|end| end.finite()).collect()
     }
     /// Names of the sets that the selection stage makes for it.
     pub fn set_names(&self) -> Vec<&'static str> {

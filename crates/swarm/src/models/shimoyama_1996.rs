@@ -96,12 +96,11 @@ impl<R: Scalar, const D: usize> Model<R, D> for Shimoyama1996<R> {
         vec![NamedSet::new("neighbours", Perception::distance(R::ZERO, self.range))]
     }
     fn complete(&self, start: &mut Start<'_, R, D>) {
-        let given = start.given[..D].iter().any(|&given| given);
-        let axis = match given {
-            true => Vector::<R, D>(core::array::from_fn(|a| start.own[a])),
-            false => *start.velocity,
-        };
-        start.own[..D].copy_from_slice(&axis.unit_or(Vector::axis(0)).0);
+        // what is given is taken as it is, as long as it is a direction
+        let given: Vector<R, D> = Vector(core::array::from_fn(|a| start.own[a]));
+        if given.is_tiny() || !start.given[..D].iter().any(|&given| given) {
+            start.own[..D].copy_from_slice(&start.velocity.unit_or(Vector::axis(0)).0);
+        }
     }
     fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, _: &Draws<'_>) -> Motion<R, D> {
         let axis = Vector(core::array::from_fn(|a| me.own[a]));
@@ -146,7 +145,7 @@ mod tests {
         let w = Oracle::new("shimoyama_1996")
             .set("a", 2.0)
             .column("axis_x", &[0.0])
-            .column("axis_y", &[3.0])
+            .column("axis_y", &[1.0])
             .step(&[([0.0, 0.0], [1.0, 0.0])]);
         close(w.velocity(0), [0.95, 0.1]);
         close(w.position(0), [0.05 * 0.95, 0.05 * 0.1]);
