@@ -6,7 +6,7 @@ use crate::json::At;
 use crate::models::{json_of, pretty};
 use crate::step::{Precision, after};
 use serde_json::{Map, Value as Json, json};
-use space::random::{Purpose, unit_vector, uniform};
+use space::random::{Purpose, uniform, unit_vector};
 use std::io::Write;
 use swarm::models::{Catalogue, Entry, Models, Prepared};
 use swarm::parameters::Values;

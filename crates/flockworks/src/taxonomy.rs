@@ -109,11 +109,7 @@ fn condition(key: &str, value: String) -> Result<Condition, Fault> {
         (Some(column), _) => *column,
         (None, [column]) => column,
         (None, []) => {
-            return wrong(format!(
-                "--where: unknown key `{key}`{}; keys are {}",
-                hint(key, &all),
-                all.join(", ")
-            ));
+            return wrong(format!("--where: unknown key `{key}`{}; keys are {}", hint(key, &all), all.join(", ")));
         }
         (None, several) => {
             return wrong(format!("--where: `{key}` could be {}; write more of it", several.join(" or ")));

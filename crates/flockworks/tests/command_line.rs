@@ -276,7 +276,9 @@ fn emitted_cases_pass_for_every_model() {
 fn models_are_classified_and_chosen() {
     let csv = flockworks(&["models", "--table", "design", "--format", "csv"]).out;
     assert!(csv.starts_with("paper,model_ids,composition,"), "{csv}");
-    assert!(csv.contains("\nHamilton 1971,hamilton_1d;hamilton_2d,homogeneous,idealized,discrete,none,no,yes,no,no,\n"));
+    assert!(
+        csv.contains("\nHamilton 1971,hamilton_1d;hamilton_2d,homogeneous,idealized,discrete,none,no,yes,no,no,\n")
+    );
     let table = flockworks(&["models", "--table", "validation", "--format", "md"]).out;
     assert!(table.contains("| Codling et al. 2007 | codling_2007 | S | yes | global | global | global |"), "{table}");
     let run = flockworks(&["models", "--table", "design", "--format", "json", "--where", "velocity=no collision=all"]);

@@ -87,6 +87,15 @@ impl<'a> Draws<'a> {
             Some(injected) => self.supplied(injected, name).map_or(Vector::ZERO, |v| Vector::of(v)),
         }
     }
+    /// A vector quantity whose components are normal with this standard deviation (slots 0 and 1, 2 and 3, ...); the zero vector where
+    /// nothing is drawn.
+    #[inline]
+    pub fn normal_vector<R: Real, const D: usize>(&self, name: &str, deviation: R) -> Vector<R, D> {
+        if deviation <= R::ZERO && self.injected.is_none() {
+            return Vector::ZERO;
+        }
+        self.vector(name, |s| Vector(core::array::from_fn(|a| deviation * R::of(s.normal(2 * a as u32)))))
+    }
     /// A quantity that only a caller can supply (its live value comes from elsewhere).
     pub fn given(&self, name: &str) -> Option<f64> {
         self.supplied(self.injected?, name).and_then(|v| v.first().copied())

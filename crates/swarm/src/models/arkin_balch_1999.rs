@@ -103,10 +103,7 @@ impl<R: Scalar> Law<R> for ArkinBalch1999<R> {
         self.maximum_speed
     }
     fn check(&self, members: usize) -> Result<(), String> {
-        let goals = self.goal.0.len();
-        if goals > 1 && goals != members {
-            return Err(format!("`goal` needs one point, or one for each of {members} members, found {goals}"));
-        }
+        self.goal.check("goal", members)?;
         if !self.offsets.is_empty() && self.offsets.len() != members {
             return Err(format!("`offsets` needs one for each of {members} members, found {}", self.offsets.len()));
         }
@@ -197,7 +194,10 @@ mod tests {
         close(w.position(0), [0.0, 0.8]);
         // at 17: 3/15 of the gain 2, away; at 5 and nearer the cap, clipped to 1; beyond 20 nothing
         let first = |x: f64| {
-            Oracle::new("arkin_balch_1999").set("goal", [0.0, 50.0]).step(&[([0.0, 0.0], REST), ([x, 0.0], REST)]).velocity(0)
+            Oracle::new("arkin_balch_1999")
+                .set("goal", [0.0, 50.0])
+                .step(&[([0.0, 0.0], REST), ([x, 0.0], REST)])
+                .velocity(0)
         };
         close(first(17.0), [-0.4, 0.8]);
         close(first(5.0), [-20.0 / 400.64f64.sqrt(), 0.8 / 400.64f64.sqrt()]);

@@ -77,11 +77,7 @@ impl<R: Scalar> Law<R> for Codling2007<R> {
         self.speed
     }
     fn check(&self, members: usize) -> Result<(), String> {
-        let targets = self.target.0.len();
-        if targets > 1 && targets != members {
-            return Err(format!("`target` needs one point, or one for each of {members} members, found {targets}"));
-        }
-        Ok(())
+        self.target.check("target", members)
     }
 }
 
@@ -97,7 +93,8 @@ impl<R: Scalar, const D: usize> Model<R, D> for Codling2007<R> {
         }
         let others = headings.unit();
         let space = me.around.space;
-        let way = self.target.of(me.member()).map_or(heading, |place| space.offset(me.position, place).unit_or(heading));
+        let way =
+            self.target.of(me.member()).map_or(heading, |place| space.offset(me.position, place).unit_or(heading));
         let way = with_noise(way, self.noise_deviation, me, draws);
         let weight = if others.is_tiny() { R::ZERO } else { self.social_weight };
         let (own, others) = (way * (R::ONE - weight), others * weight);

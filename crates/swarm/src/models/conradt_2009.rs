@@ -75,16 +75,8 @@ impl<R: Scalar> Law<R> for Conradt2009<R> {
         if self.repulsion_radius > self.attraction_radius {
             return Err("the repulsion radius must not be more than the attraction radius".into());
         }
-        for (name, count) in
-            [("need", self.need.count()), ("target", Some(self.target.0.len()).filter(|&count| count > 1))]
-        {
-            if let Some(count) = count
-                && count != members
-            {
-                return Err(format!("`{name}` needs one, or one for each of {members} members, found {count}"));
-            }
-        }
-        Ok(())
+        self.need.check("need", members)?;
+        self.target.check("target", members)
     }
 }
 

@@ -117,7 +117,8 @@ impl<R: Scalar, const D: usize> Model<R, D> for ContactOnly<R> {
         if stopped && !touches {
             let most = self.largest_turn.to_f64();
             let bounce = draws.number("bounce", 0.0, |s| most * (2.0 * s.uniform(0) - 1.0));
-            let axis = if D == 3 { draws.number("axis_angle", 0.0, |s| s.uniform(2) * R::TAU.to_f64()) } else { R::ZERO };
+            let axis =
+                if D == 3 { draws.number("axis_angle", 0.0, |s| s.uniform(2) * R::TAU.to_f64()) } else { R::ZERO };
             me.value("bounce", bounce, "rad");
             wanted = heading.turned_by(bounce, axis);
         }

@@ -66,7 +66,10 @@ impl<R: Scalar> Law<R> for ControlSnn<R> {
                      ideal sensing with occlusion. Who is near enough keeps its velocity, as the bearer of its heading, and does \
                      not move",
         edge: "the nearest coincident: near; zero D: keeps its heading; nobody seen: on, with wander and walls",
-        random: &[RandomQuantity { name: "wander", about: "angle where nobody is seen, normal with SD eta; behaviour slots 0 and 1" }],
+        random: &[RandomQuantity {
+            name: "wander",
+            about: "angle where nobody is seen, normal with SD eta; behaviour slots 0 and 1",
+        }],
         taxonomy: Taxonomy {
             composition: Composition::Homogeneous,
             idealized: true,

@@ -99,7 +99,10 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Couzin2002<R> {
         let view = Perception::angle(self.field_of_view.radians());
         vec![
             NamedSet::new("repulsion", Perception::ring(R::ZERO, self.repulsion_radius)),
-            NamedSet::new("orientation", Perception::ring(self.repulsion_radius, self.orientation_radius).both(view.clone())),
+            NamedSet::new(
+                "orientation",
+                Perception::ring(self.repulsion_radius, self.orientation_radius).both(view.clone()),
+            ),
             NamedSet::new("attraction", Perception::ring(self.orientation_radius, self.attraction_radius).both(view)),
         ]
     }

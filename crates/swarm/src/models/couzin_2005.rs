@@ -83,15 +83,8 @@ impl<R: Scalar> Law<R> for Couzin2005<R> {
         self.speed
     }
     fn check(&self, members: usize) -> Result<(), String> {
-        let counts = [("goal_weight", self.goal_weight.count()), ("goal", Some(self.goal.0.len()).filter(|&n| n > 1))];
-        for (name, count) in counts {
-            if let Some(count) = count
-                && count != members
-            {
-                return Err(format!("`{name}` needs one, or one for each of {members} members, found {count}"));
-            }
-        }
-        Ok(())
+        self.goal_weight.check("goal_weight", members)?;
+        self.goal.check("goal", members)
     }
 }
 
@@ -166,7 +159,10 @@ mod tests {
         // supplied noise comes before the limit, and turns a kept heading
         let w = Oracle::new("couzin_2005").inject("noise", &[0.1]).step(&alone);
         close(w.velocity(0), [0.1f64.cos(), 0.1f64.sin()]);
-        close(Oracle::new("couzin_2005").inject("noise", &[3.0]).step(&alone).velocity(0), [0.4f64.cos(), 0.4f64.sin()]);
+        close(
+            Oracle::new("couzin_2005").inject("noise", &[3.0]).step(&alone).velocity(0),
+            [0.4f64.cos(), 0.4f64.sin()],
+        );
     }
 
     #[test]

@@ -114,9 +114,8 @@ mod tests {
     fn two_at_rest_balance_where_the_slopes_are_equal() {
         // C_r/l_r exp(-r/l_r) = C_a/l_a exp(-r/l_a)  at  r = ln(8) / (1/0.5 - 1/2)
         let balance = 8f64.ln() / 1.5;
-        let first = |x: f64| {
-            Oracle::new("dorsogna_2006").step(&[([0.0, 0.0], [0.0, 0.0]), ([x, 0.0], [0.0, 0.0])]).velocity(0)
-        };
+        let first =
+            |x: f64| Oracle::new("dorsogna_2006").step(&[([0.0, 0.0], [0.0, 0.0]), ([x, 0.0], [0.0, 0.0])]).velocity(0);
         close(first(balance) * 1e4, [0.0, 0.0]);
         assert!(first(balance - 0.1)[0] < 0.0 && first(balance + 0.1)[0] > 0.0);
         close(first(1.0), [0.01 * (0.25 * (-0.5f64).exp() - 2.0 * (-2.0f64).exp()), 0.0]);

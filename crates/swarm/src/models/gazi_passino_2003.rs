@@ -62,11 +62,7 @@ impl<R: Scalar> Law<R> for GaziPassino2003<R> {
         self.time_step
     }
     fn check(&self, _: usize) -> Result<(), String> {
-        if self.repulsion > self.attraction {
-            Ok(())
-        } else {
-            Err("`repulsion` must be more than `attraction`".into())
-        }
+        if self.repulsion > self.attraction { Ok(()) } else { Err("`repulsion` must be more than `attraction`".into()) }
     }
 }
 

@@ -98,18 +98,8 @@ impl<R: Scalar> Law<R> for GokceSahin2009<R> {
         self.highest_speed
     }
     fn check(&self, members: usize) -> Result<(), String> {
-        let counts = [
-            ("target_weight", self.target_weight.count()),
-            ("target", Some(self.target.0.len()).filter(|&count| count > 1)),
-        ];
-        for (name, count) in counts {
-            if let Some(count) = count
-                && count != members
-            {
-                return Err(format!("`{name}` needs one, or one for each of {members} members, found {count}"));
-            }
-        }
-        Ok(())
+        self.target_weight.check("target_weight", members)?;
+        self.target.check("target", members)
     }
 }
 

@@ -78,7 +78,8 @@ mod tests {
 
     #[test]
     fn a_step_towards_the_nearest_in_range() {
-        let w = Oracle::new("hamilton_2d").step(&[([0.0, 0.0], [0.0; 2]), ([3.0, 4.0], [0.0; 2]), ([3.0, 5.5], [0.0; 2])]);
+        let w =
+            Oracle::new("hamilton_2d").step(&[([0.0, 0.0], [0.0; 2]), ([3.0, 4.0], [0.0; 2]), ([3.0, 5.5], [0.0; 2])]);
         close(w.position(0), [0.6, 0.8]);
         close(w.velocity(0), [0.6, 0.8]);
         // within the repulsion distance: stays

@@ -75,11 +75,7 @@ impl<R: Scalar> Law<R> for Hauert2011<R> {
         self.speed
     }
     fn check(&self, members: usize) -> Result<(), String> {
-        let targets = self.target.0.len();
-        if targets > 1 && targets != members {
-            return Err(format!("`target` needs one point, or one for each of {members} members, found {targets}"));
-        }
-        Ok(())
+        self.target.check("target", members)
     }
 }
 
@@ -145,7 +141,10 @@ mod tests {
     #[test]
     fn the_target_draws_and_the_coincident_do_not_separate() {
         let alone = [([0.0, 0.0], at(0.0))];
-        close(Oracle::new("hauert_2011").set("target", [0.0, 9.0]).set("turn", 99.0).step(&alone).velocity(0), [0.0, 14.0]);
+        close(
+            Oracle::new("hauert_2011").set("target", [0.0, 9.0]).set("turn", 99.0).step(&alone).velocity(0),
+            [0.0, 14.0],
+        );
         close(Oracle::new("hauert_2011").step(&alone).velocity(0), at(0.0));
         let w = Oracle::new("hauert_2011").set("turn", 99.0).step(&[([0.0, 0.0], at(0.0)), ([0.0, 0.0], at(1.0))]);
         close(w.velocity(0), at(1.0));

@@ -5,8 +5,8 @@
 use crate::card::*;
 use crate::models::families::huth_wissel::{Combination, Priority, School};
 use crate::motion::*;
-use crate::parameters::Scalar;
 use crate::parameters;
+use crate::parameters::Scalar;
 
 parameters! {
     /// Parameters of `huth_wissel_a`.

@@ -66,7 +66,10 @@ impl<R: Scalar> Law<R> for KatzHerbertRead2011<R> {
                      no alignment",
         edge: "nobody: the speed relaxes to s0; a coincident neighbour lies straight ahead and slows down; at rest the heading \
                is angle 0",
-        random: &[RandomQuantity { name: "noise", about: "angle, normal with SD noise_deviation; behaviour slots 0 and 1" }],
+        random: &[RandomQuantity {
+            name: "noise",
+            about: "angle, normal with SD noise_deviation; behaviour slots 0 and 1",
+        }],
         taxonomy: Taxonomy {
             composition: Composition::Homogeneous,
             idealized: true,

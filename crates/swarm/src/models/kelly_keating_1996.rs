@@ -76,7 +76,10 @@ impl<R: Scalar> Law<R> for KellyKeating1996<R> {
                      the body's affair",
         edge: "a zero wish: straight on; a coincident robot lies straight ahead; ties go to the lower index; h is that of the \
                orientation theta, also at rest",
-        random: &[RandomQuantity { name: "wander", about: "angle, normal with SD noise_deviation; behaviour slots 0 and 1" }],
+        random: &[RandomQuantity {
+            name: "wander",
+            about: "angle, normal with SD noise_deviation; behaviour slots 0 and 1",
+        }],
         taxonomy: Taxonomy {
             composition: Composition::Homogeneous,
             idealized: false,
@@ -207,7 +210,9 @@ mod tests {
 
     #[test]
     fn avoiding_comes_first() {
-        let first = |place: [f64; 2]| Oracle::new("kelly_keating_1996").step(&[([0.0, 0.0], at(0.0, 0.3)), (place, at(0.0, 0.1))]);
+        let first = |place: [f64; 2]| {
+            Oracle::new("kelly_keating_1996").step(&[([0.0, 0.0], at(0.0, 0.3)), (place, at(0.0, 0.1))])
+        };
         for (place, degrees) in [([0.5, 0.0], -30.0), ([0.3, 0.3], -30.0), ([0.3, -0.3], 30.0), ([0.0, 0.0], -30.0)] {
             let w = first(place);
             assert_eq!(mode(&w, 0), Some(AVOID));

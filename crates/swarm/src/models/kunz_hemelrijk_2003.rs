@@ -68,7 +68,10 @@ impl<R: Scalar> Law<R> for KunzHemelrijk2003<R> {
         departures: "an interpretation: the shapes are those of the source's figure (attraction in front, alignment at the sides)",
         edge: "empty zones add nothing; a coincident neighbour lies straight ahead and repels fully, to the right; noise comes \
                after the limit; at rest the heading is angle 0",
-        random: &[RandomQuantity { name: "noise", about: "angle, normal with SD noise_deviation; behaviour slots 0 and 1" }],
+        random: &[RandomQuantity {
+            name: "noise",
+            about: "angle, normal with SD noise_deviation; behaviour slots 0 and 1",
+        }],
         taxonomy: Taxonomy {
             composition: Composition::Heterogeneous,
             idealized: true,

@@ -231,7 +231,8 @@ fn translation_changes_nothing() {
 }
 
 /// Models in which an agent's number means something beyond the choice among equals.
-const NUMBERED: [(&str, &str); 5] = [
+const NUMBERED: [(&str, &str); 6] = [
+    ("contact_only", "its bodies meet, and moves are refused in the order of numbers"),
     ("jadbabaie_2002_leader", "leaders are named by their number"),
     ("lch_group_bearing", "of equally large components the one with the lowest number is taken"),
     ("lch_group_pose", "of equally large components the one with the lowest number is taken"),

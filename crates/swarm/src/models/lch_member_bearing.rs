@@ -81,7 +81,8 @@ mod tests {
     #[test]
     fn moving_neighbours_along_their_lines_of_sight_changes_nothing() {
         for far in [1.0, 7.0, 900.0] {
-            let w = Oracle::new("lch_member_bearing").step(&[([0.0, 0.0], REST), ([far, 0.0], REST), ([0.0, 2.0], REST)]);
+            let w =
+                Oracle::new("lch_member_bearing").step(&[([0.0, 0.0], REST), ([far, 0.0], REST), ([0.0, 2.0], REST)]);
             close(w.position(0), [0.1 * 0.5f64.sqrt(), 0.1 * 0.5f64.sqrt()]);
         }
     }

@@ -96,14 +96,9 @@ impl<R: Scalar, const D: usize> Model<R, D> for Lopez2012<R> {
             let attraction = attraction * (self.attraction_weight / count);
             me.note("alignment", alignment);
             me.note("attraction", attraction);
-            wanted = alignment + attraction;
-            if self.noise_deviation > R::ZERO || draws.injected.is_some() {
-                let noise: Vector<R, D> = draws.vector("noise_vec", |s| {
-                    Vector(core::array::from_fn(|a| self.noise_deviation * R::of(s.normal(2 * a as u32))))
-                });
-                me.note("noise", noise);
-                wanted += noise;
-            }
+            let noise = draws.normal_vector("noise_vec", self.noise_deviation);
+            me.note("noise", noise);
+            wanted = alignment + attraction + noise;
             me.sum(wanted);
         }
         Motion::new_velocity(wanted.unit_or(me.heading()) * self.speed, self.time_step)

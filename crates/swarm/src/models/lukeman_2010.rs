@@ -90,7 +90,8 @@ impl<R: Scalar> Law<R> for Lukeman2010<R> {
 
 impl<R: Scalar, const D: usize> Model<R, D> for Lukeman2010<R> {
     fn sets(&self) -> Vec<NamedSet<R, D>> {
-        let ahead = Perception::ring(R::ZERO, self.frontal_radius).both(Perception::angle(self.frontal_angle.radians()));
+        let ahead =
+            Perception::ring(R::ZERO, self.frontal_radius).both(Perception::angle(self.frontal_angle.radians()));
         vec![
             NamedSet::new("repulsion", Perception::ring(R::ZERO, self.repulsion_radius)),
             NamedSet::new("alignment", Perception::ring(self.repulsion_radius, self.alignment_radius)),

@@ -98,11 +98,7 @@ impl<R: Scalar> Law<R> for Mataric1993<R> {
         self.speed
     }
     fn check(&self, members: usize) -> Result<(), String> {
-        let homes = self.home.0.len();
-        if homes > 1 && homes != members {
-            return Err(format!("`home` needs one point, or one for each of {members} members, found {homes}"));
-        }
-        Ok(())
+        self.home.check("home", members)
     }
 }
 

@@ -97,8 +97,7 @@ fn streamed<R: Scalar, const D: usize, T: Stream<R, D>>(law: T) -> (Vec<NamedSet
         // a rank cannot be told neighbour by neighbour: the same sums, over lists
         return (sets, None, listed(Summed(law)));
     }
-    let build: Build<R, D> =
-        Box::new(move |stages| Box::new(Streamed { listed: Listed { law: Summed(law), stages } }));
+    let build: Build<R, D> = Box::new(move |stages| Box::new(Streamed { listed: Listed { law: Summed(law), stages } }));
     (sets, Some(reach), build)
 }
 

@@ -124,7 +124,8 @@ mod tests {
     #[test]
     fn who_agrees_is_metric_and_who_does_not_is_topological() {
         // the metric mean of (1, 0), (0, 1), (-1, 0) has length 1/3: dissimilarity 2/3
-        let first = |delta: f64| Oracle::new("niizato_gunji_2011").set("k", 1usize).set("delta", delta).step(&ALL).velocity(0);
+        let first =
+            |delta: f64| Oracle::new("niizato_gunji_2011").set("k", 1usize).set("delta", delta).step(&ALL).velocity(0);
         close(first(0.7), [0.0, 0.05]);
         close(first(0.6), [0.05 * 0.5f64.sqrt(), 0.05 * 0.5f64.sqrt()]);
         // at delta of 1 and above metric always

@@ -83,6 +83,20 @@ where
     }
 }
 
+/// Asserts that a model with the parameter `eta` moves a small crowd in a torus as another one does, to the bit.
+#[track_caller]
+pub(crate) fn same_trajectories(model: &str, as_model: &str) {
+    let place = |k: usize| (k as f64 * 0.7) % 3.0;
+    let agents: Vec<_> = (0..20).map(|k| ([place(k), place(3 * k)], [0.03, 0.0])).collect();
+    let hash = |model: &str| {
+        let oracle = Oracle::new(model).set("eta", 1.2).space(Space::periodic([3.0, 3.0])).live();
+        let mut world = oracle.world(&agents);
+        world.run(50);
+        world.frame().hash()
+    };
+    assert_eq!(hash(model), hash(as_model));
+}
+
 /// Asserts that a vector is close to what is expected.
 #[track_caller]
 pub(crate) fn close<const D: usize>(found: Vector<f64, D>, expected: [f64; D]) {

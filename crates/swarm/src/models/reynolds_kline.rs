@@ -119,13 +119,7 @@ impl<R: Scalar, const D: usize> Model<R, D> for ReynoldsKline<R> {
                 change += part;
             }
         }
-        let jitter: Vector<R, D> = if self.noise_deviation > R::ZERO || draws.injected.is_some() {
-            draws.vector("jitter", |s| {
-                Vector(core::array::from_fn(|a| self.noise_deviation * R::of(s.normal(2 * a as u32))))
-            })
-        } else {
-            Vector::ZERO
-        };
+        let jitter = draws.normal_vector("jitter", self.noise_deviation);
         let excess = (me.velocity.length() - self.cruise_speed) / self.maximum_speed;
         let along = if excess > R::ZERO { -urgency(excess) } else { urgency(-excess) };
         let cruise = (me.velocity + jitter).unit() * along;
@@ -154,7 +148,8 @@ mod tests {
         let length = f64::hypot(0.05, 0.2);
         close(w.velocity(0), [0.5 + 0.1 * 0.05 / length, 0.1 * 0.2 / length]);
         // exactly 3: only direction and middle
-        let w = Oracle::new("reynolds_kline").set("w_coh", 0.0).step(&[([0.0, 0.0], [0.5, 0.0]), ([0.0, 3.0], [0.0, 0.5])]);
+        let w =
+            Oracle::new("reynolds_kline").set("w_coh", 0.0).step(&[([0.0, 0.0], [0.5, 0.0]), ([0.0, 3.0], [0.0, 0.5])]);
         close(w.velocity(0), [0.55, 0.05]);
     }
 
@@ -169,7 +164,9 @@ mod tests {
         let w = Oracle::new("reynolds_kline").inject_vectors("jitter", &[[0.0, 7.0]]).step(&[([0.0, 0.0], [0.0, 0.0])]);
         close(w.velocity(0), [0.0, 0.1]);
         // any other neighbour than the nearest changes the middle alone
-        let place = |z: f64| [([0.0; 3], [0.5, 0.0, 0.0]), ([0.0, 3.0, 0.0], [0.5, 0.0, 0.0]), ([0.0, 0.0, z], [9.0, 9.0, 0.0])];
+        let place = |z: f64| {
+            [([0.0; 3], [0.5, 0.0, 0.0]), ([0.0, 3.0, 0.0], [0.5, 0.0, 0.0]), ([0.0, 0.0, z], [9.0, 9.0, 0.0])]
+        };
         let w = Oracle::new("reynolds_kline").step(&place(4.0));
         // (0.05 + 0.05, 0, 0) + 0.05 (0, 0.6, 0.8): capped at 0.1
         let length = (0.01f64 + 0.0025).sqrt();

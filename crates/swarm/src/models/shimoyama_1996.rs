@@ -151,7 +151,13 @@ mod tests {
         close(w.position(0), [0.05 * 0.95, 0.05 * 0.1]);
         // n = (0, 1) turned to (1, 0): unit((0.05, 1))
         let length = 1.0025f64.sqrt();
-        assert!(axis(&w, 0).map(|v| v.unwrap_or(9.0)).iter().zip([0.05 / length, 1.0 / length]).all(|(a, b)| (a - b).abs() < 1e-12));
+        assert!(
+            axis(&w, 0)
+                .map(|v| v.unwrap_or(9.0))
+                .iter()
+                .zip([0.05 / length, 1.0 / length])
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        );
         // an axis that is not given is the heading; at rest it stays and pushes
         let w = Oracle::new("shimoyama_1996").step(&[([0.0, 0.0], [0.0, 1.0])]);
         close(w.velocity(0), [0.0, 1.0]);

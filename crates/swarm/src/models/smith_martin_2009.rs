@@ -82,7 +82,7 @@ impl<R: Scalar> Variant<R> for SmithMartin2009<R> {
 
 #[cfg(test)]
 mod tests {
-    use crate::models::oracle::{Oracle, close};
+    use crate::models::oracle::{Oracle, close, same_trajectories};
 
     #[test]
     fn worked_example_of_the_family() {
@@ -97,15 +97,6 @@ mod tests {
 
     #[test]
     fn its_trajectories_are_those_of_vicsek() {
-        let start = |model: &str| {
-            let mut oracle = Oracle::new(model).set("eta", 1.2).space(space::Space::periodic([3.0, 3.0])).live();
-            oracle.plan.seed = 9;
-            let place = |k: usize| (k as f64 * 0.7) % 3.0;
-            let agents: Vec<_> = (0..20).map(|k| ([place(k), place(3 * k)], [0.03, 0.0])).collect();
-            let mut w = oracle.world(&agents);
-            w.run(50);
-            w.frame().hash()
-        };
-        assert_eq!(start("smith_martin_2009"), start("vicsek_1995"));
+        same_trajectories("smith_martin_2009", "vicsek_1995");
     }
 }

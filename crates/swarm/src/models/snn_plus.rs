@@ -117,10 +117,10 @@ mod tests {
 
     #[test]
     fn nobody_crosses_a_wall_and_who_is_blocked_has_made_no_step() {
-        let mut w = Oracle::new("snn_plus").set("w_env", 0.0).obstacle(wall()).world(&[
-            ([0.0, -0.4], REST),
-            ([0.0, -9.0], REST),
-        ]);
+        let mut w = Oracle::new("snn_plus")
+            .set("w_env", 0.0)
+            .obstacle(wall())
+            .world(&[([0.0, -0.4], REST), ([0.0, -9.0], REST)]);
         w.step();
         close(w.position(0), [0.0, -0.4]);
         close(w.velocity(0), [0.0, 0.0]);

@@ -49,7 +49,10 @@ impl<R: Scalar> Law<R> for Szabo2008<R> {
         departures: "the acceleration term of the table has lost its average over neighbours; noise in the plane only, as \
                      published",
         edge: "u = 0: heading kept, turned by the noise; a velocity before the first step is that of the first step",
-        random: &[RandomQuantity { name: "noise", about: "angle (2-D), uniform in [-eta pi, eta pi); behaviour slot 0" }],
+        random: &[RandomQuantity {
+            name: "noise",
+            about: "angle (2-D), uniform in [-eta pi, eta pi); behaviour slot 0",
+        }],
         taxonomy: Taxonomy {
             composition: Composition::Homogeneous,
             idealized: true,

@@ -80,9 +80,7 @@ mod tests {
 
     #[test]
     fn rest_at_distance_one_and_nothing_from_the_radius_on() {
-        let first = |x: f64| {
-            Oracle::new("tanner_2003_dynamic").step(&[([0.0], [0.0]), ([x], [0.0])]).velocity(0)
-        };
+        let first = |x: f64| Oracle::new("tanner_2003_dynamic").step(&[([0.0], [0.0]), ([x], [0.0])]).velocity(0);
         close(first(1.0), [0.0]);
         close(first(2.0), [0.0]);
         close(first(1.6), [0.01 * (2.0 / 1.6 - 2.0 / 1.6f64.powi(3))]);

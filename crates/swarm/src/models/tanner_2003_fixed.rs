@@ -65,7 +65,9 @@ impl<R: Scalar> Law<R> for Tanner2003Fixed<R> {
             return Err(format!("`neighbour_lists` needs a list for each of {members} members, found {}", lists.len()));
         }
         match lists.iter().flatten().find(|&&number| number >= members) {
-            Some(number) => Err(format!("`neighbour_lists` names member {number}, but the group's {members} count from 0")),
+            Some(number) => {
+                Err(format!("`neighbour_lists` names member {number}, but the group's {members} count from 0"))
+            }
             None => Ok(()),
         }
     }

@@ -93,7 +93,11 @@ mod tests {
 
     #[test]
     fn the_new_heading_moves() {
-        let w = Oracle::new("toner_tu_1998").step(&[([0.0, 0.0], [0.5, 0.0]), ([0.5, 0.0], [0.0, 0.5]), ([3.0, 3.0], [-0.5, 0.0])]);
+        let w = Oracle::new("toner_tu_1998").step(&[
+            ([0.0, 0.0], [0.5, 0.0]),
+            ([0.5, 0.0], [0.0, 0.5]),
+            ([3.0, 3.0], [-0.5, 0.0]),
+        ]);
         let half = 0.5 * 0.5f64.sqrt();
         close(w.velocity(0), [half, half]);
         close(w.position(0), [half, half]);

@@ -150,7 +150,9 @@ mod tests {
         close(first("constant", &[[9.0, 0.0], [0.0, 0.0]]), [0.25, 0.0]);
         close(first("constant", &[[9.0, 0.0], [-5.0, 0.0]]), [0.0, 0.0]);
         close(first("constant", &[]), [0.0, 0.0]);
-        let w = Oracle::new("warburton_lazarus_1991").set("w_rep", 9.0).step(&[([0.0; 3], [0.0; 3]), ([0.0, 0.0, 1.0], [0.0; 3])]);
+        let w = Oracle::new("warburton_lazarus_1991")
+            .set("w_rep", 9.0)
+            .step(&[([0.0; 3], [0.0; 3]), ([0.0, 0.0, 1.0], [0.0; 3])]);
         close(w.position(0), [0.0, 0.0, -0.5]);
         close(w.velocity(0), [0.0, 0.0, -0.5]);
     }

@@ -82,8 +82,7 @@ impl<R: Scalar> Model<R, 2> for Warren2018<R> {
         let (mut turn, mut faster, mut count) = (R::ZERO, R::ZERO, R::ZERO);
         for k in seen.set(0) {
             let velocity = seen.velocity(k);
-            let weight =
-                (-self.near_decay * nearest).exp() * (-self.far_decay * (seen.distance(k) - nearest)).exp();
+            let weight = (-self.near_decay * nearest).exp() * (-self.far_decay * (seen.distance(k) - nearest)).exp();
             turn += weight * (velocity.angle() - theta).sin();
             faster += weight * (velocity.length() - speed);
             count += R::ONE;

@@ -179,4 +179,3 @@ impl<R: Scalar, const D: usize> Stream<R, D> for PairLaw<R> {
         Motion::new_velocity(wanted * self.speed, self.time_step)
     }
 }
-
