@@ -23,7 +23,7 @@ parameters! {
         /// Weight of the way out from those touched.
         repulsion_weight alias "w_rep": R = 0.5, "w_rep", "1", NonNegative, Ours;
         /// Largest turn, to either side, after a move that was stopped without a touch.
-        largest_turn: R = 3.141592653589793, "-", "rad", NonNegative, Ours;
+        largest_turn: R = core::f64::consts::PI, "-", "rad", NonNegative, Ours;
         /// Speed, the same for all.
         speed: R = 0.2, "v0", "length/time", NonNegative, Ours;
         /// Length of a step.
