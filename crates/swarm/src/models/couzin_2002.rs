@@ -73,7 +73,7 @@ impl<R: Scalar> Law<R> for Couzin2002<R> {
             uses: [true, true, false],
             validation: "S",
             synchronous: true,
-            information: [Information::Global, Information::Global, Information::None],
+            information: [Information::Global, Information::Global, Information::Global],
             environment: "unbounded free",
         },
     };
