@@ -1,6 +1,7 @@
-//! `flockworks conformance`: every case of a file, one step each, beside the state it expects.
+//! `flockworks conformance`: every case of a file, one step each, beside the state it expects; or new cases.
 
 use crate::case::{Case, names, split};
+use crate::emit::emit;
 use crate::fault::{Fault, hint, wrong};
 use crate::json::{At, describe, read};
 use crate::step::{Precision, after};
@@ -16,7 +17,14 @@ const TOLERANCE_F32: f64 = 1e-4;
 #[derive(Args, Debug)]
 pub struct ConformanceOptions {
     /// A file with a list `cases`, or a single case (`-` reads standard input).
-    pub file: String,
+    #[arg(required_unless_present = "emit")]
+    pub file: Option<String>,
+    /// Print new cases of this model, in every dimension it works in, with the states that this program expects.
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["file", "only", "precision"])]
+    pub emit: Option<String>,
+    /// Seed of the states of new cases.
+    #[arg(long, default_value_t = 1, requires = "emit")]
+    pub seed: u64,
     /// Only the cases of this model.
     #[arg(long, value_name = "MODEL")]
     pub only: Option<String>,
@@ -78,20 +86,25 @@ enum Verdict {
     Refused(String),
 }
 
-/// Runs the cases and prints a table; the answer is whether all passed.
+/// Runs the cases and prints a table, or prints new cases; the answer is whether all passed.
 ///
 /// # Errors
-/// A wrong file, or a reader that went away.
+/// A wrong file, an unknown model, or a reader that went away.
 pub fn conformance(options: &ConformanceOptions, out: &mut dyn Write) -> Result<bool, Fault> {
-    let file = read(&options.file)?;
-    let cases = split(&file).map_err(|fault| fault.at(&options.file))?;
+    if let Some(model) = &options.emit {
+        emit(model, options.seed, out)?;
+        return Ok(true);
+    }
+    let name = options.file.as_deref().unwrap_or("-");
+    let file = read(name)?;
+    let cases = split(&file).map_err(|fault| fault.at(name))?;
     let all: Vec<(String, String)> = cases.list.iter().map(names).collect();
     let chosen: Vec<usize> = (0..all.len()).filter(|&k| options.only.as_ref().is_none_or(|m| *m == all[k].0)).collect();
     if let Some(model) = &options.only
         && chosen.is_empty()
     {
         let models: Vec<&str> = all.iter().map(|(model, _)| model.as_str()).collect();
-        return wrong(format!("{}: no case of the model `{model}`{}", options.file, hint(model, &models)));
+        return wrong(format!("{name}: no case of the model `{model}`{}", hint(model, &models)));
     }
     let tolerance = match options.precision {
         Precision::F64 => cases.tolerance,

@@ -4,6 +4,7 @@ pub mod bench;
 pub mod case;
 pub mod command;
 pub mod conformance;
+pub mod emit;
 pub mod fault;
 pub mod files;
 pub mod json;
@@ -12,6 +13,7 @@ pub mod plain;
 pub mod run;
 pub mod step;
 pub mod table;
+pub mod taxonomy;
 pub mod view;
 pub mod workloads;
 

@@ -1,8 +1,9 @@
 //! `flockworks models`: what the models say of themselves.
 
 use crate::case::model;
-use crate::fault::Fault;
+use crate::fault::{Fault, wrong};
 use crate::table::Table;
+use crate::taxonomy::{Classification, Condition, conditions, meets, rows_of};
 use clap::{Args, ValueEnum};
 use serde_json::{Value as Json, json};
 use space::{Column, ColumnKind};
@@ -23,13 +24,22 @@ pub enum Format {
     Json,
     /// Markdown.
     Md,
+    /// Comma-separated values, of lists and tables.
+    Csv,
 }
 
 /// Options of `models`.
 #[derive(Args, Debug)]
 pub struct ModelsOptions {
     /// A model's id, for all that its code says of it; without it, a table of all models.
+    #[arg(conflicts_with_all = ["table", "condition"])]
     pub id: Option<String>,
+    /// The publications and their models as the dissertation classifies them, by design or by validation.
+    #[arg(long, value_enum)]
+    pub table: Option<Classification>,
+    /// Only what is classified so, such as `velocity=no collision=all`; keys are the columns of the tables, or their beginnings.
+    #[arg(long = "where", value_name = "CONDITIONS")]
+    pub condition: Option<String>,
     /// Form of the output.
     #[arg(long, value_enum, default_value = "text")]
     pub format: Format,
@@ -38,7 +48,7 @@ pub struct ModelsOptions {
 /// Prints the table of models, or one model's card.
 ///
 /// # Errors
-/// An unknown id, or a reader that went away.
+/// An unknown id, a condition that cannot be, or a reader that went away.
 pub fn models(options: &ModelsOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let text = match &options.id {
         Some(id) => {
@@ -47,28 +57,60 @@ pub fn models(options: &ModelsOptions, out: &mut dyn Write) -> Result<(), Fault>
                 Format::Text => card_text(entry),
                 Format::Md => card_markdown(entry),
                 Format::Json => pretty(&card_json(entry)),
+                Format::Csv => return wrong("a model's card has no csv form; use text, md or json"),
             }
         }
-        None => match options.format {
-            Format::Text => {
-                let plural = if LIST.len() == 1 { "model" } else { "models" };
-                format!("{}\n{} {plural}; `flockworks models ID` shows one.\n", list().text(), LIST.len())
+        None => {
+            let conditions = options.condition.as_deref().map_or_else(|| Ok(Vec::new()), conditions)?;
+            match options.table {
+                Some(which) => classified(which, &conditions, options.format),
+                None => all(&conditions, options.format),
             }
-            Format::Md => list().markdown(),
-            Format::Json => pretty(&Json::from(LIST.iter().map(brief_json).collect::<Vec<_>>())),
-        },
+        }
     };
     out.write_all(text.as_bytes())?;
     Ok(())
 }
 
-fn pretty(value: &Json) -> String {
+/// The list of the models that meet the conditions.
+fn all(conditions: &[Condition], format: Format) -> String {
+    let chosen: Vec<&Entry> = LIST.iter().filter(|entry| meets(&entry.card.taxonomy, conditions)).collect();
+    match format {
+        Format::Text => {
+            let plural = if chosen.len() == 1 { "model" } else { "models" };
+            format!("{}\n{} {plural}; `flockworks models ID` shows one.\n", list(&chosen).text(), chosen.len())
+        }
+        Format::Md => list(&chosen).markdown(),
+        Format::Csv => list(&chosen).csv(),
+        Format::Json => pretty(&Json::from(chosen.into_iter().map(brief_json).collect::<Vec<_>>())),
+    }
+}
+
+/// A table of publications in a form.
+fn classified(which: Classification, conditions: &[Condition], format: Format) -> String {
+    let (headings, rows) = rows_of(which, conditions);
+    if format == Format::Json {
+        let object = |row: Vec<String>| -> Json {
+            headings.iter().map(|&heading| heading.to_owned()).zip(row.into_iter().map(Json::from)).collect()
+        };
+        return pretty(&rows.into_iter().map(object).collect());
+    }
+    let mut table = Table::new(&headings);
+    rows.into_iter().for_each(|row| table.row(row));
+    match format {
+        Format::Md => table.markdown(),
+        Format::Csv => table.csv(),
+        Format::Text | Format::Json => table.text(),
+    }
+}
+
+pub(crate) fn pretty(value: &Json) -> String {
     format!("{value:#}\n")
 }
 
-fn list() -> Table {
+fn list(entries: &[&Entry]) -> Table {
     let mut table = Table::new(&["id", "title", "dimensions", "what members do"]);
-    for entry in LIST {
+    for entry in entries {
         let card = entry.card;
         table.row(vec![card.id.into(), card.title.into(), dimensions(entry), card.about.into()]);
     }
@@ -109,7 +151,7 @@ fn takes(parameter: &Descriptor) -> String {
     }
 }
 
-fn json_of(value: &Value) -> Json {
+pub(crate) fn json_of(value: &Value) -> Json {
     match value {
         Value::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => Json::from(*number as i64),
         Value::Number(number) => Json::from(*number),
@@ -127,7 +169,7 @@ fn kind(column: &Column) -> String {
     }
 }
 
-fn information(information: Information) -> &'static str {
+pub(crate) fn information(information: Information) -> &'static str {
     match information {
         Information::Global => "global",
         Information::Local => "local",
@@ -137,7 +179,7 @@ fn information(information: Information) -> &'static str {
     }
 }
 
-fn yes(truth: bool) -> &'static str {
+pub(crate) fn yes(truth: bool) -> &'static str {
     if truth { "yes" } else { "no" }
 }
 

@@ -48,6 +48,14 @@ impl Table {
         }
         text
     }
+    /// The table as comma-separated values; what holds a comma, a quote or a line break is quoted.
+    pub fn csv(&self) -> String {
+        let cell = |entry: &String| match entry.contains([',', '"', '\n']) {
+            true => format!("\"{}\"", entry.replace('"', "\"\"")),
+            false => entry.clone(),
+        };
+        self.rows.iter().map(|row| row.iter().map(cell).collect::<Vec<_>>().join(",") + "\n").collect()
+    }
     /// The table in Markdown.
     pub fn markdown(&self) -> String {
         let mut text = String::new();

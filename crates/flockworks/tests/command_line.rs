@@ -249,11 +249,48 @@ fn every_model_of_the_list_passes_all_its_cases() {
         let results = results(&path);
         assert_eq!(results.len(), cases["cases"].as_array().unwrap().len());
         for (model, line) in results {
-            let built_in = swarm::models::find(&model).is_some();
-            let said = if built_in { "  pass" } else { "  unknown model" };
-            assert!(line.contains(said), "{name}: {line}");
+            assert!(swarm::models::find(&model).is_some() && line.contains("  pass"), "{name}: {line}");
         }
     }
+}
+
+/// Cases that the program writes pass, and a wrong model is named.
+#[test]
+fn emitted_cases_pass_for_every_model() {
+    for entry in swarm::models::LIST {
+        let id = entry.card.id;
+        let run = flockworks(&["conformance", "--emit", id]);
+        assert_eq!(run.code, Some(0), "{id}: {}", run.err);
+        let path = file(&format!("emitted-{id}.json"), &run.out);
+        let again = flockworks(&["conformance", &path]);
+        let passed = format!("{0} of {0}", 3 * entry.dimensions.len());
+        assert_eq!((again.code, again.out.lines().last()), (Some(0), Some(passed.as_str())), "{id}: {}", again.out);
+    }
+    let other = flockworks(&["conformance", "--emit", "couzin_2002", "--seed", "2"]);
+    assert_ne!(other.out, flockworks(&["conformance", "--emit", "couzin_2002"]).out);
+    refused(&["conformance", "--emit", "couzin_2003"], &["couzin_2003", "did you mean `couzin_2002`"]);
+    assert_eq!(flockworks(&["conformance", "--emit", "couzin_2002", "cases.json"]).code, Some(2));
+}
+
+#[test]
+fn models_are_classified_and_chosen() {
+    let csv = flockworks(&["models", "--table", "design", "--format", "csv"]).out;
+    assert!(csv.starts_with("paper,model_ids,composition,"), "{csv}");
+    assert!(
+        csv.contains("\nHamilton 1971,hamilton_1d;hamilton_2d,homogeneous,idealized,discrete,none,no,yes,no,no,\n")
+    );
+    let table = flockworks(&["models", "--table", "validation", "--format", "md"]).out;
+    assert!(table.contains("| Codling et al. 2007 | codling_2007 | S | yes | global | global | global |"), "{table}");
+    let run = flockworks(&["models", "--table", "design", "--format", "json", "--where", "velocity=no collision=all"]);
+    let json: Value = serde_json::from_str(&run.out).unwrap();
+    let papers: Vec<&str> = json.as_array().unwrap().iter().map(|row| row["paper"].as_str().unwrap()).collect();
+    assert_eq!(papers[..3], ["Mataric 1993", "Olfati-Saber 2006", "Arkin and Balch 1999"]);
+    assert!(papers[3..].iter().all(|paper| paper.starts_with("ours: ")), "{papers:?}");
+    assert!(flockworks(&["models", "--where", "collision=environment"]).out.contains("snn_plus"));
+    refused(&["models", "--where", "colision_avoidance=all"], &["did you mean `collision_avoidance`?"]);
+    refused(&["models", "--where", "time=discreet"], &["did you mean `discrete`?"]);
+    assert_eq!(flockworks(&["models", "vicsek_1995", "--where", "time=discrete"]).code, Some(2));
+    refused(&["models", "vicsek_1995", "--format", "csv"], &["no csv form"]);
 }
 
 #[test]

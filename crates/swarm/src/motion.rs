@@ -87,9 +87,28 @@ impl<'a> Draws<'a> {
             Some(injected) => self.supplied(injected, name).map_or(Vector::ZERO, |v| Vector::of(v)),
         }
     }
+    /// A vector quantity whose components are normal with this standard deviation (slots 0 and 1, 2 and 3, ...); the zero vector where
+    /// nothing is drawn.
+    #[inline]
+    pub fn normal_vector<R: Real, const D: usize>(&self, name: &str, deviation: R) -> Vector<R, D> {
+        if deviation <= R::ZERO && self.injected.is_none() {
+            return Vector::ZERO;
+        }
+        self.vector(name, |s| Vector(core::array::from_fn(|a| deviation * R::of(s.normal(2 * a as u32)))))
+    }
     /// A quantity that only a caller can supply (its live value comes from elsewhere).
     pub fn given(&self, name: &str) -> Option<f64> {
         self.supplied(self.injected?, name).and_then(|v| v.first().copied())
+    }
+    /// A scalar quantity about the other member `j`: supplied in the list by name, one for each member, or drawn by `law`.
+    #[inline(always)]
+    pub fn number_about<R: Real>(&self, name: &str, j: u32, law: impl FnOnce(&DrawStream) -> f64) -> R {
+        R::of(match self.injected {
+            None => law(&self.stream),
+            Some(injected) => {
+                injected.values.get(name).and_then(|all| all.get(j as usize)?.first().copied()).unwrap_or(0.0)
+            }
+        })
     }
     fn supplied(&self, injected: &'a Injected, name: &str) -> Option<&'a Vec<f64>> {
         injected.values.get(name)?.get(self.stream.agent as usize)
@@ -414,6 +433,11 @@ pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
     fn bodies_meet(&self) -> bool {
         true
     }
+    /// Whether the velocity is by definition the displacement made in the step, as in way-point models: a refused move then
+    /// leaves none.
+    fn velocity_is_step(&self) -> bool {
+        false
+    }
     /// Speed at the start when the scenario gives none.
     fn initial_speed(&self) -> R {
         R::ONE
@@ -425,6 +449,15 @@ pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
     fn check(&self, _members: usize) -> Result<(), String> {
         Ok(())
     }
+}
+
+/// A model whose law is shared with others of its family: it has a card and parameters of its own, and one kernel serves all
+/// (a law compiled once for each precision and dimension, however many models there are of it).
+pub trait Variant<R: Scalar>: Law<R> {
+    /// The law, as the engine sees it.
+    type Shared: 'static;
+    /// The law with the parameters of this model.
+    fn shared(&self) -> Self::Shared;
 }
 
 /// Completes an initial state: which columns were given and which follow from others.
@@ -511,7 +544,7 @@ impl<R: Real, const D: usize> Other<'_, R, D> {
 pub type SetMasks<M> = [M; 4];
 
 /// A law that can be summed neighbour by neighbour.
-pub trait Stream<R: Scalar, const D: usize>: Law<R> {
+pub trait Stream<R: Scalar, const D: usize>: Send + Sync + 'static {
     /// The running sums.
     type Sums<L: Lanes<R>>: LaneSums<R, L, One = Self::Sums<R>>;
     /// Whether headings of neighbours are used (they are then computed once a step).

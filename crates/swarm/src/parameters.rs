@@ -330,6 +330,18 @@ impl<T> PerAgent<T> {
             Self::Each(values) => values.get(member).or(values.last()),
         }
     }
+    /// Whether there is one for all, or one for each of so many members.
+    ///
+    /// # Errors
+    /// A sentence that names the parameter, what it needs, and how many there are.
+    pub fn check(&self, name: &str, members: usize) -> Result<(), String> {
+        match self.count() {
+            Some(count) if count != members => {
+                Err(format!("`{name}` needs one number for each of {members} members, found {count}"))
+            }
+            _ => Ok(()),
+        }
+    }
     /// Number of values where there is one each.
     pub fn count(&self) -> Option<usize> {
         if let Self::Each(values) = self { Some(values.len()) } else { None }
@@ -365,6 +377,16 @@ impl<T: Parameter> Parameter for PerAgent<T> {
 pub struct Points<R>(pub Vec<Vec<R>>);
 
 impl<R: Scalar> Points<R> {
+    /// Whether there is none, one for all, or one for each of so many members.
+    ///
+    /// # Errors
+    /// A sentence that names the parameter, what it needs, and how many there are.
+    pub fn check(&self, name: &str, members: usize) -> Result<(), String> {
+        match self.0.len() {
+            count if count <= 1 || count == members => Ok(()),
+            count => Err(format!("`{name}` needs one point, or one for each of {members} members, found {count}")),
+        }
+    }
     /// The point of a member: the only one, or its own; `None` where there is none.
     pub fn of<const D: usize>(&self, member: usize) -> Option<space::Vector<R, D>> {
         let point = if self.0.len() == 1 { self.0.first() } else { self.0.get(member) }?;

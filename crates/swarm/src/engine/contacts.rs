@@ -50,11 +50,27 @@ impl<R: Scalar, const D: usize> World<R, D> {
         if slide {
             self.push_apart();
         }
+        self.stop_steps();
         self.count_collisions();
         if let Some(column) = self.collided {
             for row in 0..agents {
                 let met = self.met[self.next.id[row] as usize] != Met::Nothing;
                 self.next.state[column][row] = if met { R::ONE } else { R::ZERO };
+            }
+        }
+    }
+
+    /// Where the velocity is the step made, it is zero after a refused move.
+    fn stop_steps(&mut self) {
+        for (group, range) in self.groups.iter().zip(&self.ranges) {
+            if !group.steps || group.contact != Contact::Refuse {
+                continue;
+            }
+            for id in (range.first..range.first + range.count).map(|id| id as usize) {
+                if self.met[id] != Met::Nothing {
+                    let row = if self.rows.is_empty() { id } else { self.rows[id] as usize };
+                    self.next.set_velocity(row, Vector::ZERO);
+                }
             }
         }
     }
@@ -244,6 +260,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
             }
         }
         self.met[row] = out.met;
+        if group.steps && group.contact == Contact::Refuse && out.met != Met::Nothing {
+            out.velocity = Vector::ZERO;
+        }
         (out.place, out.velocity)
     }
 }

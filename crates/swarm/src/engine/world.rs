@@ -30,6 +30,8 @@ pub struct Group<R: Scalar, const D: usize> {
     pub(crate) radius: R,
     /// Whether its bodies meet others.
     pub(crate) meets: bool,
+    /// Whether a refused move leaves no velocity.
+    pub(crate) steps: bool,
 }
 
 /// What an asynchronous driver remembers.
@@ -241,6 +243,7 @@ where
                 contact,
                 radius,
                 meets: model.bodies_meet,
+                steps: model.velocity_is_step,
             });
             ranges.push(GroupRange { name: group.name.clone(), first, count: group.count as u32 });
             bodies.push((first, radius));

@@ -4,7 +4,7 @@
 //! distance, Proceedings of the National Academy of Sciences 105:1232 (alignment alone).
 
 use crate::card::*;
-use crate::models::vicsek_1995::{Update, Vicsek1995};
+use crate::models::vicsek_1995::published;
 use crate::motion::*;
 use crate::parameters;
 use crate::parameters::Scalar;
@@ -86,14 +86,7 @@ impl<R: Scalar, const D: usize> Model<R, D> for Ballerini2008<R> {
         for k in seen.set(0) {
             headings += seen.heading(k);
         }
-        let vicsek = Vicsek1995 {
-            radius: R::INFINITY,
-            speed: self.speed,
-            noise_amplitude: self.noise_amplitude,
-            time_step: self.time_step,
-            position_update: Update::Old,
-        };
-        vicsek.finish(me, &headings.0, draws)
+        published(R::INFINITY, self.speed, self.noise_amplitude, self.time_step).finish(me, &headings.0, draws)
     }
 }
 

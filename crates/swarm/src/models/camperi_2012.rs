@@ -4,12 +4,10 @@
 //! optimal cohesion in flocking models, Interface Focus 2:715.
 
 use crate::card::*;
-use crate::models::gregoire_2003_vectorial::{self as gregoire, Gregoire2003Vectorial};
+use crate::models::families::pair_law::{self, Neighbours, Noise, PairLaw};
 use crate::motion::*;
 use crate::parameters::Scalar;
-use crate::selection::{NamedSet, Perception};
 use crate::{choice, parameters};
-use space::lanes::{Lanes, Mask};
 
 choice! {
     /// Who counts as a neighbour.
@@ -48,25 +46,6 @@ parameters! {
         neighbours: Neighbourhood = "topological", "-", "-", Any, Ours;
         /// Number of topological neighbours.
         neighbour_count alias "k": usize = 6usize, "k", "1", NonNegative, Ours;
-    }
-}
-
-impl<R: Scalar> Camperi2012<R> {
-    /// The law that this one is for other neighbours.
-    #[inline(always)]
-    fn pair_law(&self) -> Gregoire2003Vectorial<R> {
-        Gregoire2003Vectorial {
-            alignment_weight: self.alignment_weight,
-            cohesion_weight: self.cohesion_weight,
-            hard_core_radius: self.hard_core_radius,
-            equilibrium_distance: self.equilibrium_distance,
-            attraction_radius: self.attraction_radius,
-            interaction_radius: self.interaction_radius,
-            speed: self.speed,
-            noise_amplitude: self.noise_amplitude,
-            time_step: self.time_step,
-            neighbours: gregoire::Neighbourhood::Metric,
-        }
     }
 }
 
@@ -118,52 +97,30 @@ impl<R: Scalar> Law<R> for Camperi2012<R> {
     fn initial_speed(&self) -> R {
         self.speed
     }
-    fn check(&self, members: usize) -> Result<(), String> {
-        self.pair_law().check(members)
+    fn check(&self, _: usize) -> Result<(), String> {
+        pair_law::check(self.equilibrium_distance, self.attraction_radius)
     }
 }
 
-impl<R: Scalar, const D: usize> Stream<R, D> for Camperi2012<R> {
-    type Sums<L: Lanes<R>> = <Gregoire2003Vectorial<R> as Stream<R, D>>::Sums<L>;
-    const HEADINGS: bool = <Gregoire2003Vectorial<R> as Stream<R, D>>::HEADINGS;
-
-    fn sets(&self) -> Vec<NamedSet<R, D>> {
-        vec![NamedSet::new(
-            "neighbours",
-            match self.neighbours {
-                Neighbourhood::Topological => Perception::KNearest(self.neighbour_count),
-                Neighbourhood::Metric => Perception::distance(R::ZERO, self.interaction_radius),
-                Neighbourhood::Voronoi => Perception::Voronoi,
+impl<R: Scalar> Variant<R> for Camperi2012<R> {
+    type Shared = PairLaw<R>;
+    fn shared(&self) -> Self::Shared {
+        PairLaw {
+            alignment_weight: self.alignment_weight,
+            cohesion_weight: self.cohesion_weight,
+            hard_core_radius: self.hard_core_radius,
+            equilibrium_distance: self.equilibrium_distance,
+            attraction_radius: self.attraction_radius,
+            interaction_radius: self.interaction_radius,
+            speed: self.speed,
+            noise: Noise::Vector(self.noise_amplitude),
+            time_step: self.time_step,
+            neighbours: match self.neighbours {
+                Neighbourhood::Topological => Neighbours::Topological(self.neighbour_count),
+                Neighbourhood::Metric => Neighbours::Metric,
+                Neighbourhood::Voronoi => Neighbours::Voronoi,
             },
-        )]
-    }
-    fn reach(&self) -> R {
-        match self.neighbours {
-            Neighbourhood::Metric => self.interaction_radius,
-            Neighbourhood::Topological | Neighbourhood::Voronoi => R::INFINITY,
         }
-    }
-    #[inline(always)]
-    fn classify<L: Lanes<R>>(&self, _: &MeLanes<L, D>, _: &[L; D], _: L, _: &Other<'_, R, D>) -> SetMasks<L::Mask> {
-        // asked for metric neighbours only: the other sets are ranks, which need lists
-        let [yes, no] = [true, false].map(L::Mask::all_of);
-        [yes, no, no, no]
-    }
-    #[inline(always)]
-    fn gather<L: Lanes<R>>(
-        &self,
-        sums: &mut Self::Sums<L>,
-        me: &MeLanes<L, D>,
-        offset: &[L; D],
-        squared: L,
-        other: &Other<'_, R, D>,
-        sets: &SetMasks<L::Mask>,
-    ) {
-        self.pair_law().gather(sums, me, offset, squared, other, sets);
-    }
-    #[inline(always)]
-    fn finish(&self, me: &mut Me<'_, R, D>, sums: &Self::Sums<R>, draws: &Draws<'_>) -> Motion<R, D> {
-        self.pair_law().finish(me, sums, draws)
     }
 }
 

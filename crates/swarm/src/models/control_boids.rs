@@ -4,6 +4,7 @@
 //! C. W. Reynolds (1987) in the form of OpenSteer; the formulas and values are a reconstruction calibrated on its tables.
 
 use crate::card::*;
+use crate::models::families::control;
 use crate::motion::*;
 use crate::parameters;
 use crate::parameters::{Scalar, Value};
@@ -198,19 +199,8 @@ impl<R: Scalar> Stream<R, 2> for ControlBoids<R> {
         draws: &Draws<'_>,
     ) -> Motion<R, 2> {
         let heading = me.heading();
-        let mut walls = Vector::ZERO;
-        for wall in me.around.obstacles {
-            if wall.distance < self.wall_distance && wall.away.dot(heading) < self.leaving_cosine {
-                walls += wall.away * ((self.wall_distance - wall.distance) / self.wall_distance);
-            }
-        }
-        let mut own = heading;
-        let eta = self.wander_deviation.to_f64();
-        if eta > 0.0 || draws.injected.is_some() {
-            let wander = draws.number("wander", 0.0, |s| eta * s.normal(0));
-            me.value("wander", wander, "rad");
-            own = own.turned_by(wander, R::ZERO);
-        }
+        let walls = control::walls(me, self.wall_distance, self.leaving_cosine);
+        let own = heading.turned_by(control::wander(self.wander_deviation, me, draws), R::ZERO);
         let social = (number[0] / self.saturation).least(R::ONE);
         let parts = [
             ("separation", Vector(*separation).unit() * self.separation),
@@ -226,9 +216,7 @@ impl<R: Scalar> Stream<R, 2> for ControlBoids<R> {
         }
         me.sum(wanted);
         me.value("saturation of alignment and cohesion", social, "1");
-        me.turn("turn asked for", heading, wanted);
-        me.value("turn allowed", self.largest_turn, "rad");
-        let turned = heading.turned_toward(wanted.unit(), self.largest_turn);
+        let turned = control::turn(me, wanted, self.largest_turn);
         let displacement = turned * self.step_length;
         Motion { velocity: displacement / self.time_step, displacement }
     }

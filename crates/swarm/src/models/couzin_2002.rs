@@ -73,7 +73,7 @@ impl<R: Scalar> Law<R> for Couzin2002<R> {
             uses: [true, true, false],
             validation: "S",
             synchronous: true,
-            information: [Information::Global, Information::Global, Information::None],
+            information: [Information::Global, Information::Global, Information::Global],
             environment: "unbounded free",
         },
     };
@@ -97,14 +97,13 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Couzin2002<R> {
 
     fn sets(&self) -> Vec<NamedSet<R, D>> {
         let view = Perception::angle(self.field_of_view.radians());
-        let ring = |low: R, high: R| match high > low {
-            true => Perception::distance(low, high),
-            false => Perception::KNearest(0),
-        };
         vec![
-            NamedSet::new("repulsion", ring(R::ZERO, self.repulsion_radius)),
-            NamedSet::new("orientation", ring(self.repulsion_radius, self.orientation_radius).both(view.clone())),
-            NamedSet::new("attraction", ring(self.orientation_radius, self.attraction_radius).both(view)),
+            NamedSet::new("repulsion", Perception::ring(R::ZERO, self.repulsion_radius)),
+            NamedSet::new(
+                "orientation",
+                Perception::ring(self.repulsion_radius, self.orientation_radius).both(view.clone()),
+            ),
+            NamedSet::new("attraction", Perception::ring(self.orientation_radius, self.attraction_radius).both(view)),
         ]
     }
     fn reach(&self) -> R {

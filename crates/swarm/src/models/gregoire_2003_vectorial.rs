@@ -4,22 +4,10 @@
 //! noise (model 2).
 
 use crate::card::*;
+use crate::models::families::pair_law::{self, Neighbourhood, Noise, PairLaw};
 use crate::motion::*;
+use crate::parameters;
 use crate::parameters::Scalar;
-use crate::selection::{NamedSet, Perception};
-use crate::{choice, parameters};
-use space::Vector;
-use space::lanes::{Lanes, Mask};
-
-choice! {
-    /// Who counts as a neighbour.
-    pub enum Neighbourhood {
-        /// Everyone within the interaction radius.
-        Metric = "metric",
-        /// Those of them whose Voronoi cells touch one's own.
-        Voronoi = "voronoi",
-    }
-}
 
 parameters! {
     /// Parameters of `gregoire_2003_vectorial`.
@@ -95,92 +83,25 @@ impl<R: Scalar> Law<R> for Gregoire2003Vectorial<R> {
         self.speed
     }
     fn check(&self, _: usize) -> Result<(), String> {
-        if self.equilibrium_distance < self.attraction_radius {
-            Ok(())
-        } else {
-            Err("`equilibrium_distance` must be less than `attraction_radius`".into())
-        }
+        pair_law::check(self.equilibrium_distance, self.attraction_radius)
     }
 }
 
-impl<R: Scalar, const D: usize> Stream<R, D> for Gregoire2003Vectorial<R> {
-    /// Velocities, pair forces, directions to those in the hard core; how many neighbours and how many of them there.
-    type Sums<L: Lanes<R>> = ([L; D], [L; D], [L; D], [L; 2]);
-    const HEADINGS: bool = false;
-
-    fn sets(&self) -> Vec<NamedSet<R, D>> {
-        let near = Perception::distance(R::ZERO, self.interaction_radius);
-        vec![NamedSet::new(
-            "neighbours",
-            match self.neighbours {
-                Neighbourhood::Metric => near,
-                Neighbourhood::Voronoi => near.both(Perception::Voronoi),
-            },
-        )]
-    }
-    fn reach(&self) -> R {
-        self.interaction_radius
-    }
-    #[inline(always)]
-    fn classify<L: Lanes<R>>(&self, _: &MeLanes<L, D>, _: &[L; D], _: L, _: &Other<'_, R, D>) -> SetMasks<L::Mask> {
-        let [yes, no] = [true, false].map(L::Mask::all_of);
-        [yes, no, no, no]
-    }
-    #[inline(always)]
-    fn gather<L: Lanes<R>>(
-        &self,
-        (velocities, forces, hard_core, counts): &mut Self::Sums<L>,
-        _: &MeLanes<L, D>,
-        offset: &[L; D],
-        squared: L,
-        other: &Other<'_, R, D>,
-        sets: &SetMasks<L::Mask>,
-    ) {
-        let one = L::splat(R::ONE);
-        let within = |radius: R| squared.less(L::splat(radius * radius));
-        let towards = directions(offset, squared);
-        let slope = R::ONE / (R::of(4.0) * (self.attraction_radius - self.equilibrium_distance));
-        let linear = (squared.square_root() - L::splat(self.equilibrium_distance)) * L::splat(slope);
-        let strength = L::choose(within(self.attraction_radius), linear, one);
-        let touching = sets[0].and(within(self.hard_core_radius));
-        add_where(velocities, sets[0], splat(other.velocity));
-        add_where(forces, sets[0], towards.map(|part| part * strength));
-        add_where(hard_core, touching, towards);
-        counts[0] = counts[0].add_where(sets[0], one);
-        counts[1] = counts[1].add_where(touching, one);
-    }
-    #[inline(always)]
-    fn finish(
-        &self,
-        me: &mut Me<'_, R, D>,
-        (velocities, forces, hard_core, counts): &Self::Sums<R>,
-        draws: &Draws<'_>,
-    ) -> Motion<R, D> {
-        let mut wanted = -Vector(*hard_core);
-        let touching = counts[1] > R::ZERO;
-        me.value("neighbours in the hard core", counts[1], "1");
-        me.either(["hard core", "alignment and cohesion"], usize::from(!touching));
-        if touching {
-            me.note("hard core", wanted);
-        } else {
-            let alignment = (me.velocity + Vector(*velocities)) * self.alignment_weight;
-            let cohesion = Vector(*forces) * self.cohesion_weight;
-            me.note("alignment", alignment);
-            me.note("cohesion", cohesion);
-            wanted = alignment + cohesion;
-            if self.noise_amplitude > R::ZERO {
-                let unit: Vector<R, D> = draws.vector("unit", |s| s.unit(0));
-                let noise = unit * ((counts[0] + R::ONE) * self.noise_amplitude);
-                me.note("noise", noise);
-                wanted += noise;
-            }
+impl<R: Scalar> Variant<R> for Gregoire2003Vectorial<R> {
+    type Shared = PairLaw<R>;
+    fn shared(&self) -> Self::Shared {
+        PairLaw {
+            alignment_weight: self.alignment_weight,
+            cohesion_weight: self.cohesion_weight,
+            hard_core_radius: self.hard_core_radius,
+            equilibrium_distance: self.equilibrium_distance,
+            attraction_radius: self.attraction_radius,
+            interaction_radius: self.interaction_radius,
+            speed: self.speed,
+            noise: Noise::Vector(self.noise_amplitude),
+            time_step: self.time_step,
+            neighbours: self.neighbours.into(),
         }
-        me.sum(wanted);
-        wanted = wanted.unit();
-        if wanted.is_tiny() {
-            wanted = me.heading();
-        }
-        Motion::new_velocity(wanted * self.speed, self.time_step)
     }
 }
 

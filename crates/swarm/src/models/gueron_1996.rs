@@ -5,11 +5,12 @@
 //! Theoretical Biology 182:85.
 
 use crate::card::*;
+use crate::models::families::facing;
 use crate::motion::*;
 use crate::parameters;
 use crate::parameters::{PerAgent, Scalar};
 use crate::selection::{NamedSet, Perception};
-use space::{Column, ColumnKind, Vector};
+use space::{Column, Vector};
 
 parameters! {
     /// Parameters of `gueron_1996`.
@@ -73,7 +74,7 @@ impl<R: Scalar> Law<R> for Gueron1996<R> {
         },
     };
     fn columns() -> &'static [Column] {
-        &[Column { name: "theta", unit: "rad", kind: ColumnKind::Quantity, about: "Orientation, also while standing." }]
+        &[facing::THETA]
     }
     fn needs(&self) -> Needs {
         Needs::default()
@@ -126,15 +127,7 @@ impl<R: Scalar> Model<R, 2> for Gueron1996<R> {
         vec![NamedSet::new("neighbours", Perception::distance(R::ZERO, reach))]
     }
     fn complete(&self, start: &mut Start<'_, R, 2>) {
-        if !start.given[0] {
-            start.own[0] = start.velocity.angle();
-            return;
-        }
-        start.own[0] = start.own[0].wrapped();
-        if !start.velocity_given {
-            let speed = self.walking_speed.of(start.member).copied().unwrap_or(R::ZERO);
-            *start.velocity = Vector::at_angle(start.own[0]) * speed;
-        }
+        facing::complete(start, self.walking_speed.of(start.member).copied().unwrap_or(R::ZERO));
     }
     fn decide(&self, me: &mut Me<'_, R, 2>, seen: &Percepts<'_, R, 2>, _: &Draws<'_>) -> Motion<R, 2> {
         let theta = me.own[0];

@@ -58,6 +58,9 @@ impl<R: Scalar> Law<R> for Hamilton1d<R> {
     fn needs(&self) -> Needs {
         Needs::default()
     }
+    fn velocity_is_step(&self) -> bool {
+        true
+    }
 }
 
 /// A place in the order that starts at the deciding member: whether it lies behind, its displacement, its id.

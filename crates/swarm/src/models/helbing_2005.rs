@@ -103,17 +103,9 @@ impl<R: Scalar> Law<R> for Helbing2005<R> {
         self.desired_speed.of(0).copied().unwrap_or(R::ZERO)
     }
     fn check(&self, members: usize) -> Result<(), String> {
-        for (name, count) in [("desired_speed", self.desired_speed.count()), ("radius", self.radius.count())] {
-            if let Some(count) = count
-                && count != members
-            {
-                return Err(format!("`{name}` needs one number for each of {members} members, found {count}"));
-            }
-        }
-        let targets = self.target.0.len();
-        if targets > 1 && targets != members {
-            return Err(format!("`target` needs one point, or one for each of {members} members, found {targets}"));
-        }
+        self.desired_speed.check("desired_speed", members)?;
+        self.radius.check("radius", members)?;
+        self.target.check("target", members)?;
         if self.target.0.iter().any(|point| point.len() != 2) {
             return Err("`target` needs two coordinates for each point".into());
         }

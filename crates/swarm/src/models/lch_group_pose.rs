@@ -4,23 +4,10 @@
 //! crowded horizon that is group-centric and uses pose).
 
 use crate::card::*;
+use crate::models::families::horizon::{CrowdedHorizon, Input, OnEmpty};
 use crate::motion::*;
+use crate::parameters;
 use crate::parameters::Scalar;
-use crate::selection::{NamedSet, Perception};
-use crate::{choice, parameters};
-use core::cell::Cell;
-use core::ops::Range;
-use space::Vector;
-
-choice! {
-    /// What a member does when nobody is detected.
-    pub enum OnEmpty {
-        /// It stays.
-        Stay = "stay",
-        /// It makes a step along its heading.
-        KeepHeading = "keep_heading",
-    }
-}
 
 parameters! {
     /// Parameters of `lch_group_pose`.
@@ -76,74 +63,16 @@ impl<R: Scalar> Law<R> for LchGroupPose<R> {
     }
 }
 
-thread_local! {
-    /// Percepts in the order in which components are filled; kept between decisions so that none allocates.
-    static ORDER: Cell<Vec<u32>> = const { Cell::new(Vec::new()) };
-}
-
-/// Calls `each` with the percepts of the largest connected component of set 0, in canonical order, and returns how many they
-/// are. Of components of equal size it is the one with the lowest id.
-pub(super) fn largest_component<R: Scalar, const D: usize>(
-    seen: &Percepts<'_, R, D>,
-    linked: impl Fn(usize, usize) -> bool,
-    each: impl FnMut(usize),
-) -> usize {
-    let mut order = ORDER.take();
-    order.clear();
-    order.extend(seen.set(0).map(|k| k as u32));
-    let mut largest: (Range<usize>, u32) = (0..0, u32::MAX);
-    let mut start = 0;
-    // no smaller rest can win
-    while start < order.len() && order.len() - start >= largest.0.len() {
-        // the component from `start` to `end`, of which those before `next` have looked for their links
-        let (mut next, mut end) = (start, start + 1);
-        while next < end {
-            let rest = end..order.len();
-            for other in rest {
-                if linked(order[next] as usize, order[other] as usize) {
-                    order.swap(end, other);
-                    end += 1;
-                }
-            }
-            next += 1;
+impl<R: Scalar> Variant<R> for LchGroupPose<R> {
+    type Shared = CrowdedHorizon<R>;
+    fn shared(&self) -> Self::Shared {
+        CrowdedHorizon {
+            input: Input::Pose,
+            splitting_threshold: Some(self.splitting_threshold),
+            step_length: self.step_length,
+            range: self.range,
+            on_empty: self.on_empty,
         }
-        let lowest = order[start..end].iter().map(|&k| seen.id(k as usize)).min().unwrap_or(u32::MAX);
-        if end - start > largest.0.len() || (end - start == largest.0.len() && lowest < largest.1) {
-            largest = (start..end, lowest);
-        }
-        start = end;
-    }
-    let component = &mut order[largest.0.clone()];
-    component.sort_unstable();
-    component.iter().map(|&k| k as usize).for_each(each);
-    ORDER.set(order);
-    largest.0.len()
-}
-
-impl<R: Scalar, const D: usize> Model<R, D> for LchGroupPose<R> {
-    fn sets(&self) -> Vec<NamedSet<R, D>> {
-        vec![NamedSet::new("inputs", Perception::distance(R::ZERO, self.range))]
-    }
-    fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, _: &Draws<'_>) -> Motion<R, D> {
-        let threshold = self.splitting_threshold.squared();
-        let space = me.around.space;
-        let linked = |a: usize, b: usize| space.minimal(seen.offset(b) - seen.offset(a)).length_squared() <= threshold;
-        let mut sum = Vector::ZERO;
-        let size = largest_component(seen, linked, |k| sum += seen.offset(k));
-        let step = if size > 0 {
-            let middle = sum / R::count(size);
-            me.unit("length");
-            me.value("members of the largest component", R::count(size), "1");
-            me.sum(middle);
-            me.note("middle of the largest component", middle);
-            middle.unit() * self.step_length
-        } else {
-            match self.on_empty {
-                OnEmpty::Stay => Vector::ZERO,
-                OnEmpty::KeepHeading => me.heading() * self.step_length,
-            }
-        };
-        Motion::step(step)
     }
 }
 

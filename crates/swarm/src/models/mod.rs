@@ -3,16 +3,18 @@
 
 use crate::card::Card;
 use crate::engine::{Kernel, Listed, Stages, Streamed};
-use crate::motion::{Law, Model, Needs, Stream, Summed};
+use crate::motion::{Law, Model, Needs, Stream, Summed, Variant};
 use crate::parameters::{Descriptor, ParameterError, Parameters, Scalar, Values};
 use crate::physics::Contact;
 use crate::selection::NamedSet;
 use space::Column;
 
+pub mod families;
 #[cfg(test)]
 mod laws;
 #[cfg(test)]
 pub(crate) mod oracle;
+pub mod papers;
 
 /// What a model says of itself once its parameters are known: what the engine needs to build a group.
 pub struct Prepared<R, const D: usize> {
@@ -24,9 +26,10 @@ pub struct Prepared<R, const D: usize> {
     pub(crate) body_radius: R,
     pub(crate) contact: Contact,
     pub(crate) bodies_meet: bool,
+    pub(crate) velocity_is_step: bool,
     pub(crate) initial_speed: R,
     /// Finishes the kernel when the stages are resolved.
-    pub(crate) build: Box<dyn FnOnce(Stages<R, D>) -> Box<dyn Kernel<R, D>>>,
+    pub(crate) build: Build<R, D>,
     /// The neighbourhood a streaming law sums over, for choosing the index.
     pub(crate) stream_reach: Option<R>,
 }
@@ -44,33 +47,58 @@ impl<R: Scalar, const D: usize> Prepared<R, D> {
     pub fn time_step(&self) -> R {
         self.time_step
     }
+    /// Distances at which those sets end that have an end.
+    pub fn set_ends(&self) -> Vec<R> {
+        self.sets.iter().filter_map(|set| set.perception.shell().high).filter(|end| end.finite()).collect()
+    }
     /// Names of the sets that the selection stage makes for it.
     pub fn set_names(&self) -> Vec<&'static str> {
         self.sets.iter().map(|set| set.name).collect()
     }
 }
 
+/// Finishes a kernel.
+type Build<R, const D: usize> = Box<dyn FnOnce(Stages<R, D>) -> Box<dyn Kernel<R, D>>>;
+
+/// What a model says of itself, with the kernel that its law makes.
 fn prepared<R: Scalar, const D: usize, M: Law<R>>(
-    law: M,
+    model: &M,
     members: usize,
-    sets: fn(&M) -> Vec<NamedSet<R, D>>,
+    sets: Vec<NamedSet<R, D>>,
     stream_reach: Option<R>,
-    build: fn(M, Stages<R, D>) -> Box<dyn Kernel<R, D>>,
+    build: Build<R, D>,
 ) -> Result<Prepared<R, D>, ParameterError> {
-    law.check(members).map_err(ParameterError::Together)?;
+    model.check(members).map_err(ParameterError::Together)?;
     Ok(Prepared {
-        sets: sets(&law),
+        sets,
         columns: M::columns(),
-        needs: law.needs(),
-        time_step: law.time_step(),
-        obstacle_reach: law.obstacle_reach(),
-        body_radius: law.body_radius(),
-        contact: law.contact(),
-        bodies_meet: law.bodies_meet(),
-        initial_speed: law.initial_speed(),
+        needs: model.needs(),
+        time_step: model.time_step(),
+        obstacle_reach: model.obstacle_reach(),
+        body_radius: model.body_radius(),
+        contact: model.contact(),
+        bodies_meet: model.bodies_meet(),
+        velocity_is_step: model.velocity_is_step(),
+        initial_speed: model.initial_speed(),
         stream_reach,
-        build: Box::new(move |stages| build(law, stages)),
+        build,
     })
+}
+
+/// The kernel of a law that is given lists.
+fn listed<R: Scalar, const D: usize, T: Model<R, D>>(law: T) -> Build<R, D> {
+    Box::new(move |stages| Box::new(Listed { law, stages }))
+}
+
+/// The sets, reach and kernel of a law that sums neighbour by neighbour.
+fn streamed<R: Scalar, const D: usize, T: Stream<R, D>>(law: T) -> (Vec<NamedSet<R, D>>, Option<R>, Build<R, D>) {
+    let (sets, reach) = (law.sets(), law.reach());
+    if sets.iter().any(|set| set.perception.ranks()) {
+        // a rank cannot be told neighbour by neighbour: the same sums, over lists
+        return (sets, None, listed(Summed(law)));
+    }
+    let build: Build<R, D> = Box::new(move |stages| Box::new(Streamed { listed: Listed { law: Summed(law), stages } }));
+    (sets, Some(reach), build)
 }
 
 /// A law that is given lists.
@@ -78,23 +106,44 @@ fn lists<R: Scalar, const D: usize, M: Law<R> + Model<R, D>>(
     values: &Values,
     members: usize,
 ) -> Result<Prepared<R, D>, ParameterError> {
-    prepared(M::from_values(values)?, members, M::sets, None, |law, stages| Box::new(Listed { law, stages }))
+    let law = M::from_values(values)?;
+    prepared(&law.clone(), members, law.sets(), None, listed(law))
 }
 
 /// A law that sums neighbour by neighbour.
-fn streams<R: Scalar, const D: usize, M: Stream<R, D>>(
+fn streams<R: Scalar, const D: usize, M: Law<R> + Stream<R, D>>(
     values: &Values,
     members: usize,
 ) -> Result<Prepared<R, D>, ParameterError> {
     let law = M::from_values(values)?;
-    if law.sets().iter().any(|set| set.perception.ranks()) {
-        // a rank cannot be told neighbour by neighbour: the same sums, over lists
-        return prepared(law, members, M::sets, None, |law, stages| Box::new(Listed { law: Summed(law), stages }));
-    }
-    let reach = law.reach();
-    prepared(law, members, M::sets, Some(reach), |law, stages| {
-        Box::new(Streamed { listed: Listed { law: Summed(law), stages } })
-    })
+    let (sets, reach, build) = streamed(law.clone());
+    prepared(&law, members, sets, reach, build)
+}
+
+/// A variant of a law that is given lists.
+fn lists_as<R: Scalar, const D: usize, M: Variant<R>>(
+    values: &Values,
+    members: usize,
+) -> Result<Prepared<R, D>, ParameterError>
+where
+    M::Shared: Model<R, D>,
+{
+    let model = M::from_values(values)?;
+    let law = model.shared();
+    prepared(&model, members, law.sets(), None, listed(law))
+}
+
+/// A variant of a law that sums neighbour by neighbour.
+fn streams_as<R: Scalar, const D: usize, M: Variant<R>>(
+    values: &Values,
+    members: usize,
+) -> Result<Prepared<R, D>, ParameterError>
+where
+    M::Shared: Stream<R, D>,
+{
+    let model = M::from_values(values)?;
+    let (sets, reach, build) = streamed(model.shared());
+    prepared(&model, members, sets, reach, build)
 }
 
 /// A model of the list.
@@ -167,28 +216,76 @@ macro_rules! models {
     };
 }
 
-// one line a model: whether it streams or is given lists, file and type, dimensions
+// one line a model: whether it streams or is given lists (`_as`: through the law that its family shares), file and type,
+// dimensions
 models! {
     streams vicsek_1995::Vicsek1995 in [2, 3];
-    streams gregoire_2003_vectorial::Gregoire2003Vectorial in [2, 3];
-    streams camperi_2012::Camperi2012 in [2, 3];
+    streams_as czirok_1997::Czirok1997 in [2, 3];
+    streams_as smith_martin_2009::SmithMartin2009 in [2, 3];
+    streams_as toner_tu_1998::TonerTu1998 in [2, 3];
+    lists_as jadbabaie_2002_leaderless::Jadbabaie2002Leaderless in [2];
+    lists_as jadbabaie_2002_leader::Jadbabaie2002Leader in [2];
+    streams_as gregoire_2003_angular::Gregoire2003Angular in [2];
+    streams_as gregoire_2003_vectorial::Gregoire2003Vectorial in [2, 3];
+    streams_as camperi_2012::Camperi2012 in [2, 3];
+    lists szabo_2008::Szabo2008 in [2, 3];
     lists ballerini_2008::Ballerini2008 in [2, 3];
+    lists niizato_gunji_2011::NiizatoGunji2011 in [2, 3];
     streams couzin_2002::Couzin2002 in [2, 3];
+    lists couzin_2005::Couzin2005 in [2, 3];
+    lists conradt_2009::Conradt2009 in [2, 3];
+    lists_as huth_wissel_a::HuthWisselA in [2];
+    lists_as huth_wissel_d::HuthWisselD in [2];
+    lists kunz_hemelrijk_2003::KunzHemelrijk2003 in [2];
+    lists tien_2004::Tien2004 in [2, 3];
+    lists lopez_2012::Lopez2012 in [2, 3];
+    lists lukeman_2010::Lukeman2010 in [2, 3];
+    lists katz_herbert_read_2011::KatzHerbertRead2011 in [2];
     lists gueron_1996::Gueron1996 in [2];
     lists cucker_smale_2007::CuckerSmale2007 in [1, 2, 3];
+    lists dong_2012::Dong2012 in [1, 2, 3];
+    lists shimoyama_1996::Shimoyama1996 in [2, 3];
+    lists_as levine_2000::Levine2000 in [2, 3];
+    lists_as dorsogna_2006::Dorsogna2006 in [2, 3];
+    lists_as tanner_2003_fixed::Tanner2003Fixed in [1, 2, 3];
+    lists_as tanner_2003_dynamic::Tanner2003Dynamic in [1, 2, 3];
+    lists gazi_passino_2003::GaziPassino2003 in [1, 2, 3];
     lists gazi_passino_2005::GaziPassino2005 in [1];
     lists olfati_saber_2006::OlfatiSaber2006 in [2, 3];
     lists helbing_2005::Helbing2005 in [2];
+    lists warren_2018::Warren2018 in [2];
     streams reynolds_opensteer::ReynoldsOpensteer in [2, 3];
+    lists boids_plus::BoidsPlus in [2];
+    lists reynolds_kline::ReynoldsKline in [2, 3];
     streams boids_rule_vectors::BoidsRuleVectors in [2, 3];
+    lists_as boids_five_force::BoidsFiveForce in [2];
+    lists hartman_benes_2006::HartmanBenes2006 in [2, 3];
+    lists hauert_2011::Hauert2011 in [2];
+    lists mataric_1993::Mataric1993 in [2];
+    lists kelly_keating_1996::KellyKeating1996 in [2];
+    lists arkin_balch_1999::ArkinBalch1999 in [2];
+    lists_as turgut_2008::Turgut2008 in [2];
+    lists_as gokce_sahin_2009::GokceSahin2009 in [2];
     lists hamilton_1d::Hamilton1d in [1];
-    lists viscido_snn::ViscidoSnn in [2, 3];
+    lists_as hamilton_2d::Hamilton2d in [2, 3];
+    lists_as viscido_snn::ViscidoSnn in [2, 3];
     lists viscido_ha::ViscidoHa in [2];
+    lists viscido_lch::ViscidoLch in [2, 3];
     lists ha_extended::HaExtended in [2];
-    lists lch_group_pose::LchGroupPose in [2, 3];
+    lists_as lch_group_pose::LchGroupPose in [2, 3];
+    lists_as lch_member_pose::LchMemberPose in [2, 3];
+    lists_as lch_group_bearing::LchGroupBearing in [2, 3];
+    lists_as lch_member_bearing::LchMemberBearing in [2, 3];
+    lists rm_plus::RmPlus in [2];
+    lists_as snn_plus::SnnPlus in [2];
     streams competing_flocks::CompetingFlocks in [2];
     lists behaviour_selection::BehaviourSelection in [3];
     streams control_boids::ControlBoids in [2];
+    lists control_snn::ControlSnn in [2];
+    lists control_random::ControlRandom in [2];
+    lists contact_only::ContactOnly in [2, 3];
+    lists warburton_lazarus_1991::WarburtonLazarus1991 in [2, 3];
+    lists codling_2007::Codling2007 in [2, 3];
     streams boids_unit_heading::BoidsUnitHeading in [2, 3];
     streams abm_flocking::AbmFlocking in [2];
 }

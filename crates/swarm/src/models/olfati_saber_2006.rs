@@ -104,14 +104,8 @@ impl<R: Scalar> Law<R> for OlfatiSaber2006<R> {
         Some(self.obstacle_range)
     }
     fn check(&self, members: usize) -> Result<(), String> {
-        for (name, count) in
-            [("target_position", self.target_position.0.len()), ("target_velocity", self.target_velocity.0.len())]
-        {
-            if count > 1 && count != members {
-                return Err(format!("`{name}` needs one point, or one for each of {members} members, found {count}"));
-            }
-        }
-        Ok(())
+        self.target_position.check("target_position", members)?;
+        self.target_velocity.check("target_velocity", members)
     }
 }
 

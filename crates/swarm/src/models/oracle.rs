@@ -12,6 +12,7 @@ use space::{Space, Vector};
 pub(crate) struct Oracle<const D: usize> {
     pub(crate) plan: WorldPlan<f64, D>,
     injected: Injected,
+    live: bool,
 }
 
 impl<const D: usize> Oracle<D>
@@ -21,7 +22,7 @@ where
     /// A model with its default parameters in open space; random quantities take their neutral values.
     pub(crate) fn new(model: &str) -> Self {
         let group = GroupPlan::new("g", model, Values::new(), 0, Placement::Given(Start::default()));
-        Self { plan: WorldPlan::new(Space::open(), group), injected: Injected::default() }
+        Self { plan: WorldPlan::new(Space::open(), group), injected: Injected::default(), live: false }
     }
     pub(crate) fn set(mut self, name: &str, value: impl Into<Value>) -> Self {
         self.plan.groups[0].parameters.insert(name.to_owned(), value.into());
@@ -39,6 +40,23 @@ where
         self.injected.values.insert(name.to_owned(), values.iter().map(|&v| vec![v]).collect());
         self
     }
+    /// Draws random quantities instead of taking neutral values.
+    pub(crate) fn live(mut self) -> Self {
+        self.live = true;
+        self
+    }
+    /// Supplies a vector quantity.
+    pub(crate) fn inject_vectors(mut self, name: &str, values: &[[f64; D]]) -> Self {
+        self.injected.values.insert(name.to_owned(), values.iter().map(|v| v.to_vec()).collect());
+        self
+    }
+    /// Gives the members a declared column at the start.
+    pub(crate) fn column(mut self, name: &str, values: &[f64]) -> Self {
+        if let Placement::Given(start) = &mut self.plan.groups[0].placement {
+            start.columns.insert(name.to_owned(), values.to_vec());
+        }
+        self
+    }
     pub(crate) fn driver(mut self, driver: Driver) -> Self {
         self.plan.driver = driver;
         self
@@ -52,7 +70,9 @@ where
         }
         self.plan.index = IndexChoice::Automatic;
         let mut world = World::new(self.plan).unwrap_or_else(|error| unreachable!("{error}"));
-        world.inject(self.injected);
+        if !self.live {
+            world.inject(self.injected);
+        }
         world
     }
     /// The world after one step.
@@ -61,6 +81,20 @@ where
         world.step();
         world
     }
+}
+
+/// Asserts that a model with the parameter `eta` moves a small crowd in a torus as another one does, to the bit.
+#[track_caller]
+pub(crate) fn same_trajectories(model: &str, as_model: &str) {
+    let place = |k: usize| (k as f64 * 0.7) % 3.0;
+    let agents: Vec<_> = (0..20).map(|k| ([place(k), place(3 * k)], [0.03, 0.0])).collect();
+    let hash = |model: &str| {
+        let oracle = Oracle::new(model).set("eta", 1.2).space(Space::periodic([3.0, 3.0])).live();
+        let mut world = oracle.world(&agents);
+        world.run(50);
+        world.frame().hash()
+    };
+    assert_eq!(hash(model), hash(as_model));
 }
 
 /// Asserts that a vector is close to what is expected.

@@ -10,6 +10,7 @@ use crate::selection::{NamedSet, Perception};
 use crate::{choice, parameters};
 use space::Vector;
 use space::lanes::{Lanes, Mask};
+use space::random::normal;
 
 choice! {
     /// Which velocity moves a member in the step.
@@ -18,6 +19,16 @@ choice! {
         Old = "old_velocity",
         /// The velocity after it.
         New = "new_velocity",
+    }
+}
+
+choice! {
+    /// How the random angle is distributed.
+    pub enum AngleNoise {
+        /// Uniform in an interval whose width is the amplitude (as published).
+        Uniform = "uniform",
+        /// Normal, with the amplitude as its standard deviation.
+        Normal = "normal",
     }
 }
 
@@ -34,6 +45,8 @@ parameters! {
         time_step alias "dt": R = 1.0, "Dt", "time", Positive, Paper;
         /// Whether the velocity before or after the update moves the member.
         position_update: Update = "old_velocity", "-", "-", Any, Paper;
+        /// Whether the random angle is uniform, or normal with the amplitude as its standard deviation.
+        noise_distribution: AngleNoise = "uniform", "-", "-", Any, Paper;
     }
 }
 
@@ -60,7 +73,10 @@ impl<R: Scalar> Law<R> for Vicsek1995<R> {
                      in three dimensions the heading turns by the noise about a random axis perpendicular to it",
         edge: "alone: keeps its heading, turned by the noise; zero resultant: the same",
         random: &[
-            RandomQuantity { name: "noise", about: "angle, uniform in [-eta/2, eta/2); behaviour slot 0" },
+            RandomQuantity {
+                name: "noise",
+                about: "angle, uniform in [-eta/2, eta/2); behaviour slot 0 (normal: SD eta, slots 0 and 2)",
+            },
             RandomQuantity {
                 name: "axis_angle",
                 about: "3-D: place of the axis, uniform in [0, 2 pi); behaviour slot 1",
@@ -84,6 +100,18 @@ impl<R: Scalar> Law<R> for Vicsek1995<R> {
     }
     fn initial_speed(&self) -> R {
         self.speed
+    }
+}
+
+/// The law as published, with these parameters: for models that are this one for other neighbours or under another name.
+pub(super) fn published<R: Scalar>(radius: R, speed: R, noise_amplitude: R, time_step: R) -> Vicsek1995<R> {
+    Vicsek1995 {
+        radius,
+        speed,
+        noise_amplitude,
+        time_step,
+        position_update: Update::Old,
+        noise_distribution: AngleNoise::Uniform,
     }
 }
 
@@ -126,7 +154,10 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Vicsek1995<R> {
         let mut wanted = sum.unit_or(own);
         let eta = self.noise_amplitude.to_f64();
         if eta > 0.0 || draws.injected.is_some() {
-            let noise = draws.number("noise", 0.0, |s| eta * (s.uniform(0) - 0.5));
+            let noise = draws.number("noise", 0.0, |s| match self.noise_distribution {
+                AngleNoise::Uniform => eta * (s.uniform(0) - 0.5),
+                AngleNoise::Normal => eta * normal(s.uniform(0), s.uniform(2)),
+            });
             let axis =
                 if D == 3 { draws.number("axis_angle", 0.0, |s| s.uniform(1) * R::TAU.to_f64()) } else { R::ZERO };
             me.value("noise", noise, "rad");

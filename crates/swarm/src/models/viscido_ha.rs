@@ -59,6 +59,9 @@ impl<R: Scalar> Law<R> for ViscidoHa<R> {
     fn needs(&self) -> Needs {
         Needs::default()
     }
+    fn velocity_is_step(&self) -> bool {
+        true
+    }
 }
 
 /// The displacement from percept `first` to the percept of set 0 nearest to it among those farther from it than `beyond`.

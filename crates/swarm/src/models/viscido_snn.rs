@@ -4,11 +4,10 @@
 //! Journal of Theoretical Biology 217:183 (simple nearest neighbour).
 
 use crate::card::*;
+use crate::models::families::nearest_neighbour::NearestNeighbour;
 use crate::motion::*;
 use crate::parameters;
 use crate::parameters::Scalar;
-use crate::selection::{NamedSet, Perception};
-use space::Vector;
 
 parameters! {
     /// Parameters of `viscido_snn`.
@@ -55,22 +54,20 @@ impl<R: Scalar> Law<R> for ViscidoSnn<R> {
     fn needs(&self) -> Needs {
         Needs::default()
     }
+    fn velocity_is_step(&self) -> bool {
+        true
+    }
 }
 
-impl<R: Scalar, const D: usize> Model<R, D> for ViscidoSnn<R> {
-    fn sets(&self) -> Vec<NamedSet<R, D>> {
-        vec![NamedSet::new("neighbours", Perception::Nearest)]
-    }
-    fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, _: &Draws<'_>) -> Motion<R, D> {
-        let (far, step) = match seen.nearest(0) {
-            Some(k) if seen.distance(k) > self.repulsion_distance => (true, seen.direction(k) * self.step_length),
-            _ => (false, Vector::ZERO),
-        };
-        me.unit("length");
-        me.note("nearest", step);
-        me.sum(step);
-        me.either(["approach", "stay"], usize::from(!far));
-        Motion::step(step)
+impl<R: Scalar> Variant<R> for ViscidoSnn<R> {
+    type Shared = NearestNeighbour<R>;
+    fn shared(&self) -> Self::Shared {
+        NearestNeighbour {
+            range: None,
+            step_length: self.step_length,
+            repulsion_distance: self.repulsion_distance,
+            environment: None,
+        }
     }
 }
 

@@ -110,6 +110,10 @@ impl<R: Scalar, const D: usize> Perception<R, D> {
     pub fn distance(low: R, high: R) -> Self {
         Self::DistanceBased { low, high }
     }
+    /// Distances in [`low`, `high`); nobody where there are none.
+    pub fn ring(low: R, high: R) -> Self {
+        if high > low { Self::distance(low, high) } else { Self::KNearest(0) }
+    }
     /// A cone about the heading, by its full opening in radians.
     pub fn angle(opening: R) -> Self {
         Self::Angle { opening, cos_half: cos_half(opening) }

@@ -95,5 +95,10 @@ impl<R: Real> Ideal<R> {
 
 /// The cosine limit of a field of view with this full opening; an opening of a whole turn lets everyone pass.
 pub fn cos_half<R: Real>(opening: R) -> R {
-    if opening >= R::TAU * R::of(0.999_999_9) { -R::of(2.0) } else { (opening * R::HALF).cos() }
+    if opening >= R::TAU * R::of(0.999_999_9) {
+        return -R::of(2.0);
+    }
+    let cos = (opening * R::HALF).cos();
+    // the cosine of a right angle is 0, whatever pi is rounded to: those exactly at the side of a half-turn's view are in it
+    if cos.abs() < R::of(1e-7) { R::ZERO } else { cos }
 }

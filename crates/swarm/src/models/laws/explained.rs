@@ -197,6 +197,10 @@ where
 {
     for which in [PERFECT, LIMITED] {
         for driver in 0..drivers().len() {
+            // the drivers are the same code in both precisions: f32 sees each with one of the surroundings
+            if R::NAME == "f32" && driver % 2 != which {
+                continue;
+            }
             assert!(explained::<R, D>(entry, driver, which), "{} refuses plain sensing", entry.card.id);
         }
     }
