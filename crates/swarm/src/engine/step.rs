@@ -34,10 +34,11 @@ impl<R: Scalar, const D: usize> World<R, D> {
         let mut next = core::mem::replace(&mut self.next, space::Columns::nothing());
         let mut memory = core::mem::take(&mut self.memory);
         let mut clear = core::mem::take(&mut self.clear);
+        let mut close = core::mem::take(&mut self.close);
         let mut scratch = core::mem::take(&mut self.scratch);
         {
             let view = self.view();
-            let out = Writer::new(&mut next, &mut memory, &mut clear);
+            let out = Writer::new(&mut next, &mut memory, &mut clear, &mut close);
             let worker_scratch = space::parallel::Shared::new(&mut scratch);
             let rows = self.now.len();
             let threads = self.workers.threads();
@@ -57,6 +58,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.next = next;
         self.memory = memory;
         self.clear = clear;
+        self.close = close;
         self.scratch = scratch;
         self.finish(self.dt, self.time + self.dt.to_f64());
     }
