@@ -700,7 +700,7 @@ pub fn in_view<R: Real, L: Lanes<R>, const D: usize>(
 ) -> L::Mask {
     // `cos_half distance <= along`, with both sides times their own size, which saves the root
     let along = dot(heading, offset);
-    let ahead = (L::splat(cos_half * cos_half.abs()) * squared).less_equal(along * along.greater(-along));
+    let ahead = (L::splat(cos_half * cos_half.abs()) * squared).less_equal(along * along.size());
     let coincident = squared.less_equal(L::splat(R::TINY * R::TINY));
     let resting = dot(heading, heading).less_equal(L::splat(R::ZERO));
     ahead.or(coincident).or(resting)

@@ -1,8 +1,8 @@
 //! One group's way through the stages: chosen once, called once per block of agents.
 
 use crate::motion::{
-    Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Marks, Me, MeLanes, Model, Motion, NearItem, NearObstacle, Other, Percepts,
-    Start, Stream, Summed, Trace, WIDEST, splat,
+    Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Marks, Me, MeLanes, Model, Motion, NearItem, NearObstacle,
+    Other, Percepts, Start, Stream, Summed, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::Mobility;
@@ -615,7 +615,10 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 segments.clear();
                 let found = grid.each_segment(place, radius, |segment| segments.push(segment));
                 if found {
-                    with_lanes(level(), Meet::<R, D, SHIFTED> { view, row, place, radius, segments: &segments, scratch });
+                    with_lanes(
+                        level(),
+                        Meet::<R, D, SHIFTED> { view, row, place, radius, segments: &segments, scratch },
+                    );
                     scratch.bury(view);
                 }
                 scratch.segments = segments;
@@ -633,7 +636,14 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     }
     /// Marks the members of rings; false where the index is none to do that with.
     #[inline(always)]
-    fn mark(&self, view: &View<'_, R, D>, row: usize, rings: &Rings<R>, scratch: &mut Scratch<R, D>) -> bool {
+    fn mark(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        heading: Vector<R, D>,
+        rings: &Rings<R>,
+        scratch: &mut Scratch<R, D>,
+    ) -> bool {
         scratch.clear();
         let mut segments = core::mem::take(&mut scratch.segments);
         segments.clear();
@@ -645,14 +655,14 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             _ => false,
         };
         if shifted {
-            with_lanes(level(), Mark::<R, D, SHIFTED> { view, row, rings, segments: &segments, scratch });
+            with_lanes(level(), Mark::<R, D, SHIFTED> { view, row, heading, rings, segments: &segments, scratch });
         } else if !matches!(view.index, Index::Live(_)) {
             let segments = &everyone(view);
             scratch.close_within = rings.outer[0].root();
             if view.space.is_periodic() {
-                with_lanes(level(), Mark::<R, D, ALL> { view, row, rings, segments, scratch });
+                with_lanes(level(), Mark::<R, D, ALL> { view, row, heading, rings, segments, scratch });
             } else {
-                with_lanes(level(), Mark::<R, D, ALL_OPEN> { view, row, rings, segments, scratch });
+                with_lanes(level(), Mark::<R, D, ALL_OPEN> { view, row, heading, rings, segments, scratch });
             }
         }
         scratch.segments = segments;
@@ -817,6 +827,7 @@ fn firsts<R, const D: usize>(columns: &[impl core::ops::Deref<Target = [R]>; D],
 }
 
 /// A motion turned by an angle (about a drawn axis in three dimensions).
+#[inline(always)]
 fn turned<R: Scalar, const D: usize>(motion: Motion<R, D>, angle: R, draws: &DrawStream, slot: u32) -> Motion<R, D> {
     let axis = if D == 3 { R::of(draws.uniform(slot)) * R::TAU } else { R::ZERO };
     let turn = |v: Vector<R, D>| v.unit().turned_by(angle, axis) * v.length();
@@ -927,6 +938,7 @@ impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Meet<'_, '_, R, D, WA
 struct Mark<'a, 'b, R, const D: usize, const WAY: u8> {
     view: &'a View<'b, R, D>,
     row: usize,
+    heading: Vector<R, D>,
     rings: &'a Rings<R>,
     segments: &'a [Segment<R, D>],
     scratch: &'a mut Scratch<R, D>,
@@ -936,10 +948,10 @@ impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Mark<'_, '_, R, D, WA
     type Output = ();
     #[inline(always)]
     fn run<L: Lanes<R>>(self) {
-        let Self { view, row, rings, segments, scratch } = self;
+        let Self { view, row, heading, rings, segments, scratch } = self;
         let rings = *rings;
         let me: [L; D] = splat(view.now.position(row));
-        let heading: [L; D] = splat(view.now.velocity(row).unit());
+        let heading: [L; D] = splat(heading);
         let mut outer = [L::splat(R::ZERO); RINGS];
         // every bit where the cone does not limit a ring
         let mut all_round = [0u32; RINGS];
@@ -1007,12 +1019,12 @@ fn finite_lanes<R: Scalar, L: Lanes<R>>(value: L) -> L::Mask {
 
 /// The first `count` lanes as bits.
 #[inline(always)]
-fn mask_of(count: usize) -> u32 {
+pub(crate) fn mask_of(count: usize) -> u32 {
     if count >= 32 { u32::MAX } else { (1u32 << count) - 1 }
 }
 
 #[inline(always)]
-pub(crate) fn minimal_lanes<R: Scalar, L: Lanes<R>, const D: usize>(space: &Space<R, D>, axis: usize, d: L) -> L {
+pub(crate) fn minimal_lanes<R: Real, L: Lanes<R>, const D: usize>(space: &Space<R, D>, axis: usize, d: L) -> L {
     if let Edge::Periodic(length) = space.edges[axis] {
         let (length, half) = (L::splat(length), L::splat(length * R::HALF));
         let above = half.less_equal(d);
@@ -1049,7 +1061,11 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         // an explanation goes the long way, over lists, which comes to the same
         let quick = M::MARKS && trace.is_none();
         scratch.close_within = R::ZERO;
-        let marked = quick && stages.rings.as_ref().is_some_and(|rings| stages.mark(view, row, rings, scratch));
+        let heading = view.now.velocity(row).unit();
+        let marked = match &stages.rings {
+            Some(rings) if quick => stages.mark(view, row, heading, rings, scratch),
+            _ => false,
+        };
         if !marked {
             indirect = stages.detect(view, row, scratch, memory);
             stages.select(view, row, scratch, indirect);
@@ -1066,9 +1082,11 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             stages.perceive_obstacles(view, position, &mut obstacles);
         }
         stages.load(view.now, row, scratch);
+        // whole blocks, where they are read by blocks
+        let count = if M::MARKS { scratch.found.next_multiple_of(BLOCK) } else { scratch.found };
         let seen = Percepts {
-            offset: firsts(&scratch.offset, scratch.found),
-            squared: &scratch.squared[..scratch.found],
+            offset: firsts(&scratch.offset, count),
+            squared: &scratch.squared[..count],
             row: &scratch.row[..scratch.found],
             sets: if marked { &[] } else { &scratch.sets },
             marks: &scratch.marks[..scratch.found.div_ceil(BLOCK)],
@@ -1080,7 +1098,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             id: view.now.id[row],
             position,
             velocity: view.now.velocity(row),
-            heading: view.now.velocity(row).unit(),
+            heading,
             own: &mut scratch.own,
             around: stages.around(view, row, position, &obstacles),
             trace,
@@ -1125,7 +1143,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
                 (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() => reach - self.stages.radius,
                 _ => R::ZERO,
             };
-            let moved = (place - view.now.position(row)).length();
+            let moved = (place - view.now.position(row)).length_squared();
             // SAFETY: as above.
             unsafe {
                 if out.close.blocks > 0 && scratch.close_within > R::ZERO {
@@ -1133,7 +1151,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
                     out.close.marks.part(row * blocks..(row + 1) * blocks).copy_from_slice(&scratch.close[..blocks]);
                     out.close.within.write(row, scratch.close_within);
                 }
-                out.clear.write(row, moved < room);
+                out.clear.write(row, room > R::ZERO && moved < room * room);
                 out.write(row, place, velocity);
                 out.write_state(row, &self.stages.columns, &scratch.own);
                 out.write_state(row, &self.stages.body_columns, &body);
@@ -1269,6 +1287,10 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             let mut near = squared.less(limit);
             if j.wrapping_sub(block.first) < L::WIDTH {
                 near = near.and(L::Mask::from_bits(!(1u32 << (j - block.first))));
+            }
+            if IMAGES && !near.any() {
+                // of all rows, most are near nobody; rows of cells are near somebody
+                continue;
             }
             let mut sets = self.law().classify::<L>(&block.me, &offset, squared, &other);
             for set in &mut sets {

@@ -5,6 +5,7 @@
 //! number of its aligning neighbours (the study's Algorithm 1 and equations 1 to 7).
 
 use crate::card::*;
+use crate::engine::mask_of;
 use crate::motion::*;
 use crate::parameters::Scalar;
 use crate::selection::{NamedSet, Perception};
@@ -351,7 +352,7 @@ impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
         for block in 0..seen.marks.len() {
             let marks = u32::from(sight.marks(block)[set]);
             for part in (0..BLOCK).step_by(L::WIDTH) {
-                let bits = marks >> part & first_bits(L::WIDTH);
+                let bits = marks >> part & mask_of(L::WIDTH);
                 for (members, column) in members.iter_mut().zip(&columns) {
                     L::load(&column[block * BLOCK + part..]).pack(bits, &mut members[filled..]);
                 }
@@ -394,7 +395,7 @@ fn add_directions<R: Scalar, L: Lanes<R>, const N: usize>(
     for first in (0..count).step_by(BLOCK) {
         for part in (0..BLOCK).step_by(L::WIDTH) {
             let [x, y, z, squared] = columns.each_ref().map(|column| L::load(&column[first + part..]));
-            let there = L::Mask::from_bits(first_bits(count.saturating_sub(first + part)));
+            let there = L::Mask::from_bits(mask_of(count.saturating_sub(first + part)));
             let unit = towards(&[x, y, z], squared);
             for a in 0..3 {
                 let sum = &mut sums[a][part / L::WIDTH];
@@ -402,12 +403,6 @@ fn add_directions<R: Scalar, L: Lanes<R>, const N: usize>(
             }
         }
     }
-}
-
-/// The first `count` bits set.
-#[inline(always)]
-fn first_bits(count: usize) -> u32 {
-    if count >= 32 { u32::MAX } else { (1 << count) - 1 }
 }
 
 /// Whether percept `a` is nearer than `b`; ties go to the lower id.
@@ -596,7 +591,9 @@ impl<R: Scalar> BehaviourSelection<R> {
             for l in (0..BLOCK).filter(|l| sight.marks(block)[set] >> l & 1 == 1) {
                 let k = block * BLOCK + l;
                 let nearer = |other: usize| {
-                    (0..BLOCK).filter(|l| sight.marks(other)[set] >> l & 1 == 1 && before(seen, other * BLOCK + l, k)).count()
+                    (0..BLOCK)
+                        .filter(|l| sight.marks(other)[set] >> l & 1 == 1 && before(seen, other * BLOCK + l, k))
+                        .count()
                 };
                 if (0..seen.marks.len()).map(nearer).sum::<usize>() < considered {
                     sum += T::of(seen, k);
@@ -705,7 +702,7 @@ impl<R: Scalar> BehaviourSelection<R> {
         if let Behaviour::Search = behaviour {
             turn = limits[0] * draws.number("search_theta", 0.0, |s| 2.0 * s.uniform(1) - 1.0);
             rise = limits[1] * draws.number("search_phi", 0.0, |s| 2.0 * s.uniform(2) - 1.0);
-        } else if wanted.length() >= R::of(SHORT) {
+        } else if wanted.length_squared() >= R::of(SHORT * SHORT) {
             let (azimuth, elevation) = Self::angles_of(wanted, theta);
             turn = (azimuth - theta).wrapped().clamped(-limits[0], limits[0]);
             rise = (elevation - phi).clamped(-limits[1], limits[1]);
