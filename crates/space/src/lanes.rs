@@ -89,6 +89,8 @@ pub trait Lanes<R>:
     fn store(self, to: &mut [R]);
     /// Square root.
     fn square_root(self) -> Self;
+    /// Absolute value.
+    fn size(self) -> Self;
     /// The lesser, lane by lane (no NaN expected).
     fn lesser(self, other: Self) -> Self;
     /// The greater, lane by lane (no NaN expected).
@@ -172,6 +174,10 @@ macro_rules! plain_number {
             #[inline(always)]
             fn square_root(self) -> Self {
                 self.sqrt()
+            }
+            #[inline(always)]
+            fn size(self) -> Self {
+                self.abs()
             }
             #[inline(always)]
             fn lesser(self, other: Self) -> Self {
@@ -285,6 +291,10 @@ impl<R: Real, const W: usize> Lanes<R> for Wide<R, W> {
     #[inline(always)]
     fn square_root(self) -> Self {
         Self(self.0.map(Real::root))
+    }
+    #[inline(always)]
+    fn size(self) -> Self {
+        Self(self.0.map(Real::abs))
     }
     #[inline(always)]
     fn lesser(self, other: Self) -> Self {
@@ -419,7 +429,7 @@ mod x86 {
     /// were found; every SAFETY line below rests on that.
     macro_rules! vector {
         ($doc:literal $name:ident $mask_name:ident $number:ident $width:literal $inner:ty, $mask:ty,
-         $set1:ident $loadu:ident $storeu:ident $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $min:ident $max:ident,
+         $set1:ident $loadu:ident $storeu:ident $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $abs:ident $min:ident $max:ident,
          less $less:expr, less_equal $less_equal:expr, choose $choose:expr, add_where $add_where:expr,
          and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, from_bits $from_bits:expr
          $(, pack $pack:expr, pack_numbers $pack_numbers:expr, pack_listed $pack_listed:expr)?) => {
@@ -500,6 +510,11 @@ mod x86 {
                 fn square_root(self) -> Self {
                     // SAFETY: the features are present, see above.
                     Self(unsafe { $sqrt(self.0) })
+                }
+                #[inline(always)]
+                fn size(self) -> Self {
+                    // SAFETY: the features are present, see above.
+                    Self(unsafe { $abs(self.0) })
                 }
                 #[inline(always)]
                 fn lesser(self, other: Self) -> Self {
@@ -616,7 +631,7 @@ mod x86 {
         _mm512_storeu_si512(to.cast(), _mm512_maskz_compress_epi32(bits as __mmask16, _mm512_loadu_si512(from.cast()))));
     vector!("Sixteen f32." F32Avx512 MaskF32Avx512 f32 16 __m512, __mmask16,
         _mm512_set1_ps _mm512_loadu_ps _mm512_storeu_ps _mm512_add_ps _mm512_sub_ps _mm512_mul_ps _mm512_div_ps
-        _mm512_sqrt_ps _mm512_min_ps _mm512_max_ps,
+        _mm512_sqrt_ps _mm512_abs_ps _mm512_min_ps _mm512_max_ps,
         less less_f32x16, less_equal less_equal_f32x16, choose choose_f32x16, add_where add_where_f32x16,
         and and16, or or16, not not16, bits bits16, from_bits from_bits16, pack pack_f32x16, pack_numbers pack_numbers16,
         pack_listed pack_listed16);
@@ -641,7 +656,7 @@ mod x86 {
         _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(bits as __mmask8, _mm256_loadu_si256(from.cast()))));
     vector!("Eight f64." F64Avx512 MaskF64Avx512 f64 8 __m512d, __mmask8,
         _mm512_set1_pd _mm512_loadu_pd _mm512_storeu_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
-        _mm512_sqrt_pd _mm512_min_pd _mm512_max_pd,
+        _mm512_sqrt_pd _mm512_abs_pd _mm512_min_pd _mm512_max_pd,
         less less_f64x8, less_equal less_equal_f64x8, choose choose_f64x8, add_where add_where_f64x8,
         and and8, or or8, not not8, bits bits8, from_bits from_bits8, pack pack_f64x8, pack_numbers pack_numbers8,
         pack_listed pack_listed8);
@@ -651,6 +666,7 @@ mod x86 {
     call!(choose_f32x8(m: __m256, y: __m256, n: __m256) -> __m256, "avx2", _mm256_blendv_ps(n, y, m));
     call!(add_where_f32x8(a: __m256, m: __m256, b: __m256) -> __m256, "avx2", _mm256_blendv_ps(a, _mm256_add_ps(a, b), m));
     call!(not_f32x8(a: __m256) -> __m256, "avx2", _mm256_xor_ps(a, _mm256_castsi256_ps(_mm256_set1_epi32(-1))));
+    call!(abs_f32x8(a: __m256) -> __m256, "avx2", _mm256_andnot_ps(_mm256_set1_ps(-0.0), a));
     call!(bits_f32x8(a: __m256) -> u32, "avx2", _mm256_movemask_ps(a) as u32);
     call!(from_bits_f32x8(bits: u32) -> __m256, "avx2", {
         let each = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
@@ -659,7 +675,7 @@ mod x86 {
     });
     vector!("Eight f32." F32Avx2 MaskF32Avx2 f32 8 __m256, __m256,
         _mm256_set1_ps _mm256_loadu_ps _mm256_storeu_ps _mm256_add_ps _mm256_sub_ps _mm256_mul_ps _mm256_div_ps
-        _mm256_sqrt_ps _mm256_min_ps _mm256_max_ps,
+        _mm256_sqrt_ps abs_f32x8 _mm256_min_ps _mm256_max_ps,
         less less_f32x8, less_equal less_equal_f32x8, choose choose_f32x8, add_where add_where_f32x8,
         and _mm256_and_ps, or _mm256_or_ps, not not_f32x8, bits bits_f32x8, from_bits from_bits_f32x8);
 
@@ -668,6 +684,7 @@ mod x86 {
     call!(choose_f64x4(m: __m256d, y: __m256d, n: __m256d) -> __m256d, "avx2", _mm256_blendv_pd(n, y, m));
     call!(add_where_f64x4(a: __m256d, m: __m256d, b: __m256d) -> __m256d, "avx2", _mm256_blendv_pd(a, _mm256_add_pd(a, b), m));
     call!(not_f64x4(a: __m256d) -> __m256d, "avx2", _mm256_xor_pd(a, _mm256_castsi256_pd(_mm256_set1_epi32(-1))));
+    call!(abs_f64x4(a: __m256d) -> __m256d, "avx2", _mm256_andnot_pd(_mm256_set1_pd(-0.0), a));
     call!(bits_f64x4(a: __m256d) -> u32, "avx2", _mm256_movemask_pd(a) as u32);
     call!(from_bits_f64x4(bits: u32) -> __m256d, "avx2", {
         let each = _mm256_setr_epi64x(1, 2, 4, 8);
@@ -676,7 +693,7 @@ mod x86 {
     });
     vector!("Four f64." F64Avx2 MaskF64Avx2 f64 4 __m256d, __m256d,
         _mm256_set1_pd _mm256_loadu_pd _mm256_storeu_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd
-        _mm256_sqrt_pd _mm256_min_pd _mm256_max_pd,
+        _mm256_sqrt_pd abs_f64x4 _mm256_min_pd _mm256_max_pd,
         less less_f64x4, less_equal less_equal_f64x4, choose choose_f64x4, add_where add_where_f64x4,
         and _mm256_and_pd, or _mm256_or_pd, not not_f64x4, bits bits_f64x4, from_bits from_bits_f64x4);
 }
@@ -693,7 +710,7 @@ mod tests {
         let masked = a.less(b).or(b.less_equal(a).not()).and(L::Mask::all_of(true));
         let sum = (a + b * a - b / (a * a + L::splat(R::ONE))).add_where(masked, b);
         let root = (sum * sum).square_root();
-        L::choose(root.less(L::splat(R::of(2.0))), -root.lesser(a), root.greater(b))
+        L::choose(root.less(L::splat(R::of(2.0))), -root.lesser(a), root.greater(b).size())
     }
 
     impl<R: Real> Task<R> for Chain<'_, R> {

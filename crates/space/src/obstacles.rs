@@ -85,6 +85,28 @@ struct Placed<R, const D: usize> {
     index: u32,
     opaque: bool,
     shape: Shape<R, D>,
+    /// A ball that holds all of it; infinite where none does.
+    centre: Vector<R, D>,
+    around: R,
+}
+
+impl<R: Real, const D: usize> Placed<R, D> {
+    fn new(index: u32, opaque: bool, shape: Shape<R, D>) -> Self {
+        let (low, high) = shape.bounds();
+        let middle = (low + high) * R::HALF;
+        let (centre, around) = match &shape {
+            Shape::Ball { centre, radius } => (*centre, *radius),
+            _ if low.finite() && high.finite() => (middle, (high - low).length() * R::HALF),
+            _ => (Vector::ZERO, R::INFINITY),
+        };
+        Self { index, opaque, shape, centre, around }
+    }
+    /// Whether it is certainly farther from `p` than `reach`; rounding errors are far smaller than what is added.
+    #[inline(always)]
+    fn is_far(&self, p: Vector<R, D>, reach: R) -> bool {
+        let within = (self.around + reach) * R::of(1.0 + 1e-4) + epsilon::<R>() * R::of(64.0) * self.centre.length();
+        (p - self.centre).length_squared() > within * within
+    }
 }
 
 /// All obstacles of a world.
@@ -222,7 +244,7 @@ impl<R: Real, const D: usize> Obstacles<R, D> {
             if let Some(shape) = &place {
                 for by in images(shape, &self.periodic, self.reach) {
                     let shape = shape.moved(by);
-                    self.copies.push(Placed { index: index as u32, opaque: obstacle.opaque, shape });
+                    self.copies.push(Placed::new(index as u32, obstacle.opaque, shape));
                 }
             }
             self.places.push(place);
@@ -249,6 +271,9 @@ impl<R: Real, const D: usize> Obstacles<R, D> {
     /// obstacle count separately and follow one another.
     pub fn near(&self, p: Vector<R, D>, reach: R, mut visit: impl FnMut(u32, &Shape<R, D>, Nearest<R, D>)) {
         for copy in self.candidates(p, reach) {
+            if copy.is_far(p, reach) {
+                continue;
+            }
             let nearest = copy.shape.nearest(p);
             if nearest.distance < reach {
                 visit(copy.index, &copy.shape, nearest);
@@ -466,7 +491,7 @@ impl<R: Real, const D: usize> Cells<R, D> {
         let extent = high - low;
 
         // cells far smaller than the reach would list almost the same copies again and again
-        let (edge, along) = edge(extent, R::count((4 * count).min(1 << 18)));
+        let (edge, along) = edge(extent, R::count((32 * count).min(1 << 18)));
         let edge = edge.most(reach * R::HALF);
         let dimensions: [usize; D] =
             core::array::from_fn(|a| if along[a] { (extent[a] / edge).floor().index().max(1) } else { 1 });

@@ -7,7 +7,7 @@
 use crate::card::Card;
 use crate::parameters::{Parameters, Scalar};
 use crate::physics::Contact;
-use crate::selection::NamedSet;
+use crate::selection::{NamedSet, RINGS};
 use space::lanes::{Lanes, Mask};
 use space::random::{Purpose, Stream as DrawStream};
 use space::{Column, Columns, Real, Space, Vector};
@@ -295,6 +295,12 @@ impl<R, const D: usize> Default for Trace<R, D> {
     }
 }
 
+/// So many percepts stand in a block.
+pub const BLOCK: usize = 16;
+
+/// The named sets of a block of percepts: bit `l` of number `s` is set where percept `l` of the block is in set `s`.
+pub type Marks = [u16; RINGS];
+
 /// The detected members of one agent, as columns, with the named sets that selection put them in.
 #[derive(Clone, Copy)]
 pub struct Percepts<'a, R, const D: usize> {
@@ -304,8 +310,10 @@ pub struct Percepts<'a, R, const D: usize> {
     pub squared: &'a [R],
     /// Row of each in `others`.
     pub row: &'a [u32],
-    /// Bit `s` is set for members of named set `s`.
+    /// Bit `s` is set for members of named set `s`. Empty where a law asks for marks.
     pub sets: &'a [u32],
+    /// The named sets by blocks of percepts, for laws that ask for marks.
+    pub marks: &'a [Marks],
     /// Where velocities and declared columns of the percepts stand: the state itself, or what was sensed of it.
     pub others: &'a Columns<R, D>,
     /// Column in `others` of each of the model's declared columns.
@@ -478,24 +486,14 @@ pub struct Start<'a, R, const D: usize> {
 
 /// A law as the engine sees it.
 pub trait Model<R: Scalar, const D: usize>: Send + Sync + 'static {
-    /// Whether the law is worth compiling for wide vector instructions: its own loops run over many percepts.
-    const WIDE: bool = false;
+    /// Whether the law reads its named sets (three at most) as [`Marks`], and is worth compiling for wide vector
+    /// instructions. It is then given percepts that may be in no set, and may be anybody: it must look at none but those
+    /// marked. What it computes must depend on who is in a set, in their order, and not on who stands between them.
+    const MARKS: bool = false;
     /// The named sets of its selection stage, at most 32, with their default perception functions.
     fn sets(&self) -> Vec<NamedSet<R, D>>;
     /// Fills in what an initial state leaves out.
     fn complete(&self, _start: &mut Start<'_, R, D>) {}
-    /// The named sets of all percepts at once, `named` as [`Self::sets`] made them, where a law can do that faster than the
-    /// perception functions one by one; false, with nothing written, where it cannot.
-    fn select(
-        &self,
-        _named: &[NamedSet<R, D>],
-        _heading: Vector<R, D>,
-        _offset: &[&[R]; D],
-        _squared: &[R],
-        _sets: &mut [u32],
-    ) -> bool {
-        false
-    }
     /// The wanted motion.
     fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D>;
     /// Called with the new values of the declared columns where the body moves otherwise than wanted, for laws that keep
@@ -735,7 +733,7 @@ pub fn in_view<R: Real, L: Lanes<R>, const D: usize>(
 ) -> L::Mask {
     // `cos_half distance <= along`, with both sides times their own size, which saves the root
     let along = dot(heading, offset);
-    let ahead = (L::splat(cos_half * cos_half.abs()) * squared).less_equal(along * along.greater(-along));
+    let ahead = (L::splat(cos_half * cos_half.abs()) * squared).less_equal(along * along.size());
     let coincident = squared.less_equal(L::splat(R::TINY * R::TINY));
     let resting = dot(heading, heading).less_equal(L::splat(R::ZERO));
     ahead.or(coincident).or(resting)

@@ -1,5 +1,8 @@
 //! Resources that agents consume, and what consumption and its lack do to them.
 
+use crate::engine::{mask_of, minimal_lanes};
+use crate::motion::{WIDEST, dot};
+use space::lanes::{Lanes, Mask, Task, level, with_lanes};
 use space::random::{Purpose, uniform, unit_vector};
 use space::{Columns, Real, Space, Vector};
 
@@ -111,32 +114,18 @@ impl<R: Real, const D: usize> Resources<R, D> {
     /// The nearest item that is there; ties go to the lower number.
     #[inline]
     pub fn nearest(&self, space: &Space<R, D>, from: Vector<R, D>) -> Option<(u32, Vector<R, D>)> {
-        let mut best: Option<(u32, Vector<R, D>, R)> = None;
+        let (mut nearest, mut least) = (usize::MAX, R::INFINITY);
         for (item, &place) in self.place.iter().enumerate() {
-            if self.absent_until[item].is_some() {
-                continue;
-            }
-            let offset = space.offset(from, place);
-            let squared = offset.length_squared();
-            if best.is_none_or(|(_, _, least)| squared < least) {
-                best = Some((item as u32, offset, squared));
-            }
+            let squared = space.offset(from, place).length_squared();
+            // choices, since which item is nearer than those before cannot be foretold
+            let nearer = (squared < least) & self.absent_until[item].is_none();
+            nearest = if nearer { item } else { nearest };
+            least = if nearer { squared } else { least };
         }
-        best.map(|(item, offset, _)| (item, offset))
+        self.place.get(nearest).map(|&place| (nearest as u32, space.offset(from, place)))
     }
     /// Consumption in item order, then metabolism and death, after everyone moved. `row_of` gives rows by id.
-    pub fn update(
-        &mut self,
-        space: &Space<R, D>,
-        columns: &mut Columns<R, D>,
-        row_of: impl Fn(u32) -> usize,
-        seed: u64,
-        step: u64,
-        time: f64,
-        dt: R,
-    ) {
-        let agents = columns.len() as u32;
-        let alive = |columns: &Columns<R, D>, row: usize| self.health.is_none_or(|h| columns.state[h][row] > R::ZERO);
+    pub fn update(&mut self, space: &Space<R, D>, columns: &mut Columns<R, D>, seed: u64, step: u64, time: f64, dt: R) {
         for item in 0..self.place.len() {
             self.consumer[item] = None;
             if let Some(until) = self.absent_until[item] {
@@ -145,16 +134,11 @@ impl<R: Real, const D: usize> Resources<R, D> {
                 }
                 continue;
             }
-            let mut best: Option<(usize, u32, R)> = None;
             let limit = self.plan.within * self.plan.within;
-            for id in 0..agents {
-                let row = row_of(id);
-                let squared = space.offset(columns.position(row), self.place[item]).length_squared();
-                if squared < limit && alive(columns, row) && best.is_none_or(|(_, _, least)| squared < least) {
-                    best = Some((row, id, squared));
-                }
-            }
-            let Some((row, id, _)) = best else { continue };
+            let place = self.place[item];
+            let consumer = Consumer { space, columns, place, limit, health: self.health };
+            let Some(row) = with_lanes(level(), consumer) else { continue };
+            let id = columns.id[row];
             for (gain, &column) in self.plan.gains.iter().zip(&self.gains) {
                 let value = &mut columns.state[column][row];
                 *value = (*value + gain.amount).least(gain.capacity.most(*value));
@@ -187,6 +171,45 @@ impl<R: Real, const D: usize> Resources<R, D> {
                 columns.state[health][row] = left.most(R::ZERO);
             }
         }
+    }
+}
+
+/// The row of the living agent nearest to an item, of those that reach it; ties go to the lower id.
+struct Consumer<'a, R, const D: usize> {
+    space: &'a Space<R, D>,
+    columns: &'a Columns<R, D>,
+    place: Vector<R, D>,
+    limit: R,
+    health: Option<usize>,
+}
+
+impl<R: Real, const D: usize> Task<R> for Consumer<'_, R, D> {
+    type Output = Option<usize>;
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) -> Option<usize> {
+        let Self { space, columns, place, limit, health } = self;
+        let mut best: Option<(R, u32, usize)> = None;
+        for first in (0..columns.len()).step_by(L::WIDTH) {
+            let mut offset = [L::splat(R::ZERO); D];
+            for a in 0..D {
+                let from = L::load(&columns.position[a][first..]);
+                offset[a] = minimal_lanes(space, a, L::splat(place.0[a]) - from);
+            }
+            let squared = dot(&offset, &offset);
+            let mut reaching = squared.less(L::splat(limit)).bits() & mask_of(columns.len() - first);
+            while reaching != 0 {
+                let lane = reaching.trailing_zeros() as usize;
+                reaching &= reaching - 1;
+                let mut each = [R::ZERO; WIDEST];
+                squared.store(&mut each);
+                let (row, id) = (first + lane, columns.id[first + lane]);
+                let alive = health.is_none_or(|h| columns.state[h][row] > R::ZERO);
+                if alive && best.is_none_or(|(least, lower, _)| (each[lane], id) < (least, lower)) {
+                    best = Some((each[lane], id, row));
+                }
+            }
+        }
+        best.map(|(.., row)| row)
     }
 }
 
@@ -237,7 +260,7 @@ mod tests {
     #[test]
     fn the_nearest_living_agent_eats_and_ties_go_to_the_lower_id() {
         let (mut r, mut c) = world();
-        r.update(&Space::walled([100.0, 100.0]), &mut c, |id| id as usize, 1, 0, 0.0, 1.0);
+        r.update(&Space::walled([100.0, 100.0]), &mut c, 1, 0, 0.0, 1.0);
         assert_eq!(r.consumer, [Some(0), None], "agents 0 and 1 and 2 are at distance 1: the lowest eats");
         assert_eq!(c.state[1][..3], [99.0, 69.0, 69.0], "capped at capacity, then one unit paid");
         assert_ne!(r.place[0], Vector([1.0, 0.0]), "the item is elsewhere");
@@ -250,10 +273,10 @@ mod tests {
         c.state[1][..3].copy_from_slice(&[0.25, 0.0, 5.0]);
         c.state[0][1] = 0.5;
         c.state[0][0] = 0.0;
-        r.update(&Space::walled([100.0, 100.0]), &mut c, |id| id as usize, 1, 0, 0.0, 1.0);
+        r.update(&Space::walled([100.0, 100.0]), &mut c, 1, 0, 0.0, 1.0);
         assert_eq!(r.consumer[0], Some(1), "agent 0 is dead");
         c.state[1][1] = 0.5;
-        r.update(&Space::walled([100.0, 100.0]), &mut c, |id| id as usize, 1, 1, 1.0, 1.0);
+        r.update(&Space::walled([100.0, 100.0]), &mut c, 1, 1, 1.0, 1.0);
         assert_eq!((c.state[0][1], c.state[1][1]), (0.0, 0.0), "half a unit unpaid takes the last half of health");
         assert_eq!(c.state[1][0], 0.25, "the dead pay nothing");
     }

@@ -1,8 +1,8 @@
 //! Contacts after everyone's motion: walls and obstacles first, then bodies.
 
-use crate::engine::kernel::minimal_lanes;
+use crate::engine::kernel::{Close, minimal_lanes};
 use crate::engine::world::World;
-use crate::motion::{dot, splat};
+use crate::motion::{BLOCK, dot, splat};
 use crate::parameters::Scalar;
 use crate::physics::{Contact, Met, free_of_environment, resolve};
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
@@ -95,6 +95,16 @@ impl<R: Scalar, const D: usize> World<R, D> {
         }
     }
 
+    /// Has decisions note who is close to whom, where moves of bodies of one radius are refused without cells.
+    pub(crate) fn note_close(&mut self) {
+        let agents = self.now.len();
+        let refuse = self.groups.iter().any(|g| g.meets && g.contact == Contact::Refuse && g.radius > R::ZERO);
+        if refuse && agents < CELLS_FROM && self.reach.is_none() {
+            let blocks = agents.div_ceil(BLOCK);
+            self.close = Close { blocks, marks: vec![0; agents * blocks], within: vec![R::ZERO; agents] };
+        }
+    }
+
     /// Accepts moves one by one in the order of ids; each is tested against the new places of those before it and the old places of
     /// those after it. Bodies that already touch may move apart.
     fn refuse_bodies(&mut self) {
@@ -164,16 +174,44 @@ impl<R: Scalar, const D: usize> World<R, D> {
 
     /// Whether a move would end in contact with a body that it does not move away from.
     fn touches(&self, row: usize, places: &[Vec<R>; D], limit: R) -> bool {
-        let (from, to) = (self.now.position(row), self.next.position(row));
-        (0..self.now.len()).filter(|&other| other != row).any(|other| {
-            let mut place = Vector::ZERO;
-            for a in 0..D {
-                place.0[a] = places[a][other];
+        (0..self.now.len()).any(|other| other != row && self.touches_other(row, other, places, limit))
+    }
+
+    /// As [`Self::touches`], one other body alone.
+    #[inline(always)]
+    fn touches_other(&self, row: usize, other: usize, places: &[Vec<R>; D], limit: R) -> bool {
+        let mut place = Vector::ZERO;
+        for a in 0..D {
+            place.0[a] = places[a][other];
+        }
+        let after = self.space.offset(self.next.position(row), place).length_squared();
+        after < limit && after <= self.space.offset(self.now.position(row), place).length_squared()
+    }
+
+    /// As [`Self::touches`], those alone that were close before the step.
+    #[inline(always)]
+    fn touches_close(&self, row: usize, places: &[Vec<R>; D], limit: R) -> bool {
+        let blocks = self.close.blocks;
+        for (block, &bits) in self.close.marks[row * blocks..(row + 1) * blocks].iter().enumerate() {
+            let mut bits = bits;
+            while bits != 0 {
+                if self.touches_other(row, block * BLOCK + bits.trailing_zeros() as usize, places, limit) {
+                    return true;
+                }
+                bits &= bits - 1;
             }
-            let after = self.space.offset(to, place).length_squared();
-            let before = self.space.offset(from, place).length_squared();
-            after < limit && after <= before
-        })
+        }
+        false
+    }
+
+    /// So close together two must be before the step to touch after it, whoever they are and however they move.
+    fn closest(&self, reach: R) -> R {
+        let mut farthest = R::ZERO;
+        for row in 0..self.now.len() {
+            let moved = self.space.minimal(self.next.position(row) - self.now.position(row));
+            farthest = farthest.most(moved.length_squared());
+        }
+        (reach + farthest.root() + farthest.root()) * R::of(1.000_001)
     }
 
     /// Pushes overlapping bodies apart by half the overlap each, never through a wall.
@@ -281,6 +319,7 @@ impl<R: Scalar, const D: usize> Task<R> for RefuseBodies<'_, R, D> {
     fn run<L: Lanes<R>>(self) {
         let Self { world, places, limit } = self;
         let limits = L::splat(limit);
+        let closest = if world.close.blocks > 0 { world.closest(limit.root()) } else { R::INFINITY };
         let images = world.space.is_periodic();
         for group in 0..world.groups.len() {
             let refuses = world.groups[group].contact == Contact::Refuse;
@@ -295,7 +334,9 @@ impl<R: Scalar, const D: usize> Task<R> for RefuseBodies<'_, R, D> {
                 }
                 let to = world.next.position(row);
                 let mut touched = false;
-                if refuses {
+                if refuses && world.close.blocks > 0 && world.close.within[row] >= closest {
+                    touched = world.touches_close(row, places, limit);
+                } else if refuses {
                     // the own old place does not count
                     for places in places.iter_mut() {
                         places[row] = R::INFINITY;

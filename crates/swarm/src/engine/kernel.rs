@@ -1,13 +1,13 @@
 //! One group's way through the stages: chosen once, called once per block of agents.
 
 use crate::motion::{
-    Around, Draws, Injected, LaneSums, MOST_OWN, Me, MeLanes, Model, Motion, NearItem, NearObstacle, Other, Percepts,
-    Start, Stream, Summed, Trace, WIDEST, splat,
+    Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Marks, Me, MeLanes, Model, Motion, NearItem, NearObstacle,
+    Other, Percepts, Start, Stream, Summed, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::Mobility;
 use crate::resources::Resources;
-use crate::selection::{self, Candidates, NamedSet, Reach};
+use crate::selection::{self, Candidates, NamedSet, RINGS, Reach, Rings};
 use crate::sensing::robot::{Memory, Robot, RobotScratch};
 use crate::sensing::{Ideal, Occlusion};
 use core::ops::Range;
@@ -101,6 +101,8 @@ pub(crate) struct Stages<R, const D: usize> {
     pub(crate) sets: Vec<NamedSet<R, D>>,
     /// Whether the named sets are the law's own.
     pub(crate) own_sets: bool,
+    /// The named sets as rings, where they are that and nothing limits or disturbs their sensing.
+    pub(crate) rings: Option<Rings<R>>,
     pub(crate) reach: Reach<R>,
     pub(crate) sensing: Sensing<R>,
     pub(crate) obstacle_reach: Option<R>,
@@ -113,14 +115,57 @@ pub(crate) struct Stages<R, const D: usize> {
     pub(crate) plain: bool,
 }
 
+/// A buffer that begins a cache line, so that no full vector of it lies across two.
+struct Lined<R> {
+    numbers: Vec<R>,
+    /// Places before its first.
+    lead: usize,
+}
+
+impl<R: Real> Lined<R> {
+    /// Bytes of a cache line.
+    const LINE: usize = 64;
+
+    fn new() -> Self {
+        Self { numbers: Vec::new(), lead: 0 }
+    }
+    /// Makes it so long at least, and keeps what it holds.
+    #[cold]
+    fn grow(&mut self, length: usize) {
+        let places = Self::LINE / size_of::<R>();
+        self.numbers.resize(length + places, R::ZERO);
+        let lead = self.numbers.as_ptr().align_offset(Self::LINE).min(places);
+        self.numbers.copy_within(self.lead..self.lead + length, lead);
+        self.lead = lead;
+    }
+}
+impl<R> core::ops::Deref for Lined<R> {
+    type Target = [R];
+    #[inline(always)]
+    fn deref(&self) -> &[R] {
+        &self.numbers[self.lead..]
+    }
+}
+impl<R> core::ops::DerefMut for Lined<R> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [R] {
+        &mut self.numbers[self.lead..]
+    }
+}
+
 /// Buffers of one worker.
 pub(crate) struct Scratch<R, const D: usize> {
     /// Number of detected members: so many places of the next three are theirs.
     found: usize,
     row: Vec<u32>,
-    offset: [Vec<R>; D],
-    squared: Vec<R>,
+    offset: [Lined<R>; D],
+    squared: Lined<R>,
     sets: Vec<u32>,
+    /// The named sets by blocks of percepts, for laws that ask for marks, and whoever is inside the first ring.
+    marks: Vec<Marks>,
+    close: Vec<u16>,
+    /// Outer radius of that ring where all rows were marked in the last decision, else 0.
+    close_within: R,
     chosen: Vec<bool>,
     order: Vec<u32>,
     selection: selection::Scratch<R, D>,
@@ -139,9 +184,12 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
         Self {
             found: 0,
             row: Vec::new(),
-            offset: core::array::from_fn(|_| Vec::new()),
-            squared: Vec::new(),
+            offset: core::array::from_fn(|_| Lined::new()),
+            squared: Lined::new(),
             sets: Vec::new(),
+            marks: Vec::new(),
+            close: Vec::new(),
+            close_within: R::ZERO,
             chosen: Vec::new(),
             order: Vec::new(),
             selection: selection::Scratch::default(),
@@ -159,8 +207,10 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
         let needed = self.found + more + WIDEST;
         if self.row.len() < needed {
             self.row.resize(2 * needed, 0);
-            self.offset.iter_mut().for_each(|o| o.resize(2 * needed, R::ZERO));
-            self.squared.resize(2 * needed, R::ZERO);
+            self.offset.iter_mut().for_each(|o| o.grow(2 * needed));
+            self.squared.grow(2 * needed);
+            self.marks.resize(2 * needed / BLOCK, [0; RINGS]);
+            self.close.resize(2 * needed / BLOCK, 0);
         }
     }
     #[inline(always)]
@@ -175,6 +225,17 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
     }
     fn clear(&mut self) {
         self.found = 0;
+    }
+    /// Marks what selection put into sets.
+    fn mark(&mut self) {
+        for (marks, block) in self.marks.iter_mut().zip(self.sets.chunks(BLOCK)) {
+            *marks = [0; RINGS];
+            for (l, &sets) in block.iter().enumerate() {
+                for (s, bits) in marks.iter_mut().enumerate() {
+                    *bits |= ((sets >> s & 1) as u16) << l;
+                }
+            }
+        }
     }
     /// Leaves the dead out.
     #[inline(always)]
@@ -207,12 +268,31 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
     }
 }
 
+/// Who is close to whom before a step, where all pairs are compared: what contacts have to look at afterwards.
+#[derive(Default)]
+pub(crate) struct Close<R> {
+    /// Blocks of rows; 0 where nobody asks.
+    pub(crate) blocks: usize,
+    /// For each row, a bit for each other row that is closer than `within`: so many blocks of [`BLOCK`] bits.
+    pub(crate) marks: Vec<u16>,
+    /// For each row, up to where its bits are known.
+    pub(crate) within: Vec<R>,
+}
+
+struct CloseWriter<'a, R> {
+    blocks: usize,
+    marks: Shared<'a, u16>,
+    within: Shared<'a, R>,
+}
+
 /// The next state, written by several workers at disjoint rows.
 pub(crate) struct Writer<'a, R, const D: usize> {
     /// What agents remember of their last scan, by id; empty where nobody does.
     memory: Shared<'a, Memory<R>>,
     /// Whether a row's move is known to meet neither wall nor obstacle.
     clear: Shared<'a, bool>,
+    /// What is known of who is close to whom.
+    close: CloseWriter<'a, R>,
     id: Shared<'a, u32>,
     position: [Shared<'a, R>; D],
     velocity: [Shared<'a, R>; D],
@@ -220,8 +300,18 @@ pub(crate) struct Writer<'a, R, const D: usize> {
 }
 
 impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
-    pub(crate) fn new(columns: &'a mut Columns<R, D>, memory: &'a mut [Memory<R>], clear: &'a mut [bool]) -> Self {
+    pub(crate) fn new(
+        columns: &'a mut Columns<R, D>,
+        memory: &'a mut [Memory<R>],
+        clear: &'a mut [bool],
+        close: &'a mut Close<R>,
+    ) -> Self {
         Self {
+            close: CloseWriter {
+                blocks: close.blocks,
+                marks: Shared::new(&mut close.marks),
+                within: Shared::new(&mut close.within),
+            },
             memory: Shared::new(memory),
             clear: Shared::new(clear),
             id: Shared::new(&mut columns.id),
@@ -238,6 +328,9 @@ impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
         // SAFETY: the caller's promise; rows are in bounds.
         unsafe {
             self.clear.part(rows.clone()).fill(false);
+            if self.close.blocks > 0 {
+                self.close.within.part(rows.clone()).fill(R::ZERO);
+            }
             self.id.part(rows.clone()).copy_from_slice(&now.id[rows.clone()]);
             for (to, from) in self.state.iter().zip(&now.state) {
                 to.part(rows.clone()).copy_from_slice(&from[rows.clone()]);
@@ -522,7 +615,10 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 segments.clear();
                 let found = grid.each_segment(place, radius, |segment| segments.push(segment));
                 if found {
-                    with_lanes(level(), Meet::<R, D, false> { view, row, place, radius, segments: &segments, scratch });
+                    with_lanes(
+                        level(),
+                        Meet::<R, D, SHIFTED> { view, row, place, radius, segments: &segments, scratch },
+                    );
                     scratch.bury(view);
                 }
                 scratch.segments = segments;
@@ -537,6 +633,47 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         if !found {
             pairs(view, row, place, radius, scratch);
         }
+    }
+    /// Marks the members of rings; false where the index is none to do that with.
+    #[inline(always)]
+    fn mark(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        heading: Vector<R, D>,
+        rings: &Rings<R>,
+        scratch: &mut Scratch<R, D>,
+    ) -> bool {
+        scratch.clear();
+        let mut segments = core::mem::take(&mut scratch.segments);
+        segments.clear();
+        let shifted = match (view.index, self.reach) {
+            (Index::Live(_), _) => false,
+            (Index::Sorted(grid), Reach::Within(radius)) => {
+                grid.each_segment(view.now.position(row), radius, |segment| segments.push(segment))
+            }
+            _ => false,
+        };
+        if shifted {
+            with_lanes(level(), Mark::<R, D, SHIFTED> { view, row, heading, rings, segments: &segments, scratch });
+        } else if !matches!(view.index, Index::Live(_)) {
+            let segments = &everyone(view);
+            scratch.close_within = rings.outer[0].root();
+            if view.space.is_periodic() {
+                with_lanes(level(), Mark::<R, D, ALL> { view, row, heading, rings, segments, scratch });
+            } else {
+                with_lanes(level(), Mark::<R, D, ALL_OPEN> { view, row, heading, rings, segments, scratch });
+            }
+        }
+        scratch.segments = segments;
+        if view.mortality.is_some() {
+            for k in 0..scratch.found {
+                if view.dead(view.others, scratch.row[k] as usize) {
+                    scratch.marks[k / BLOCK].iter_mut().for_each(|bits| *bits &= !(1 << (k % BLOCK)));
+                }
+            }
+        }
+        !matches!(view.index, Index::Live(_))
     }
     /// The limits and errors of ideal sensing. Returns whether others' velocities were changed too.
     #[inline(never)]
@@ -681,7 +818,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
 
 /// The first `count` places of each column.
 #[inline(always)]
-fn firsts<R, const D: usize>(columns: &[Vec<R>; D], count: usize) -> [&[R]; D] {
+fn firsts<R, const D: usize>(columns: &[impl core::ops::Deref<Target = [R]>; D], count: usize) -> [&[R]; D] {
     let mut firsts = [&[][..]; D];
     for a in 0..D {
         firsts[a] = &columns[a][..count];
@@ -690,14 +827,42 @@ fn firsts<R, const D: usize>(columns: &[Vec<R>; D], count: usize) -> [&[R]; D] {
 }
 
 /// A motion turned by an angle (about a drawn axis in three dimensions).
+#[inline(always)]
 fn turned<R: Scalar, const D: usize>(motion: Motion<R, D>, angle: R, draws: &DrawStream, slot: u32) -> Motion<R, D> {
     let axis = if D == 3 { R::of(draws.uniform(slot)) * R::TAU } else { R::ZERO };
     let turn = |v: Vector<R, D>| v.unit().turned_by(angle, axis) * v.length();
     Motion { velocity: turn(motion.velocity), displacement: turn(motion.displacement) }
 }
 
-/// Members of runs of rows closer than a radius, several at a time. With `IMAGES`, displacements are made minimal.
-struct Meet<'a, 'b, R, const D: usize, const IMAGES: bool> {
+/// All rows, for [`Meet`] and [`Mark`]: displacements are made minimal where an axis is periodic.
+const ALL: u8 = 0;
+/// As [`ALL`], where no axis is.
+const ALL_OPEN: u8 = 1;
+/// Runs of rows, each displaced by its shift.
+const SHIFTED: u8 = 2;
+
+/// Displacements to several others.
+#[inline(always)]
+fn offsets_to<R: Scalar, L: Lanes<R>, const D: usize, const WAY: u8>(
+    space: &Space<R, D>,
+    position: &[&[R]; D],
+    first: usize,
+    shift: &[L; D],
+    me: &[L; D],
+) -> [L; D] {
+    let mut offset = *me;
+    for a in 0..D {
+        let other = L::load(&position[a][first..]);
+        offset[a] = (if WAY == SHIFTED { other + shift[a] } else { other }) - me[a];
+        if WAY == ALL {
+            offset[a] = minimal_lanes(space, a, offset[a]);
+        }
+    }
+    offset
+}
+
+/// Members of runs of rows closer than a radius, several at a time.
+struct Meet<'a, 'b, R, const D: usize, const WAY: u8> {
     view: &'a View<'b, R, D>,
     row: usize,
     place: Vector<R, D>,
@@ -714,16 +879,22 @@ fn pairs<R: Scalar, const D: usize>(
     radius: R,
     scratch: &mut Scratch<R, D>,
 ) {
-    let segments = &[Segment { first: 0, end: view.others.len() as u32, shift: Vector::ZERO }];
+    let segments = &everyone(view);
     if view.space.is_periodic() {
-        with_lanes(level(), Meet::<R, D, true> { view, row, place, radius, segments, scratch });
+        with_lanes(level(), Meet::<R, D, ALL> { view, row, place, radius, segments, scratch });
     } else {
-        with_lanes(level(), Meet::<R, D, false> { view, row, place, radius, segments, scratch });
+        with_lanes(level(), Meet::<R, D, ALL_OPEN> { view, row, place, radius, segments, scratch });
     }
     scratch.bury(view);
 }
 
-impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Meet<'_, '_, R, D, IMAGES> {
+/// All rows as one segment.
+#[inline(always)]
+fn everyone<R: Scalar, const D: usize>(view: &View<'_, R, D>) -> [Segment<R, D>; 1] {
+    [Segment { first: 0, end: view.others.len() as u32, shift: Vector::ZERO }]
+}
+
+impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Meet<'_, '_, R, D, WAY> {
     type Output = ();
     #[inline(always)]
     fn run<L: Lanes<R>>(self) {
@@ -744,13 +915,7 @@ impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Meet<'_, '_, R, 
             let shift: [L; D] = splat(segment.shift);
             let mut count = *found;
             while first < end {
-                let mut offset = me;
-                for a in 0..D {
-                    offset[a] = (L::load(&position[a][first..]) + shift[a]) - me[a];
-                    if IMAGES {
-                        offset[a] = minimal_lanes(view.space, a, offset[a]);
-                    }
-                }
+                let offset = offsets_to::<R, L, D, WAY>(view.space, &position, first, &shift, &me);
                 let squared = crate::motion::dot(&offset, &offset);
                 let mut bits = squared.less(limit).bits() & mask_of(end - first);
                 if row >= first && row < first + L::WIDTH {
@@ -769,6 +934,82 @@ impl<R: Scalar, const D: usize, const IMAGES: bool> Task<R> for Meet<'_, '_, R, 
     }
 }
 
+/// The members of rings about an agent, as marks of the rows themselves: nothing is moved, and no row is tested by itself.
+struct Mark<'a, 'b, R, const D: usize, const WAY: u8> {
+    view: &'a View<'b, R, D>,
+    row: usize,
+    heading: Vector<R, D>,
+    rings: &'a Rings<R>,
+    segments: &'a [Segment<R, D>],
+    scratch: &'a mut Scratch<R, D>,
+}
+
+impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Mark<'_, '_, R, D, WAY> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) {
+        let Self { view, row, heading, rings, segments, scratch } = self;
+        let rings = *rings;
+        let me: [L; D] = splat(view.now.position(row));
+        let heading: [L; D] = splat(heading);
+        let mut outer = [L::splat(R::ZERO); RINGS];
+        // every bit where the cone does not limit a ring
+        let mut all_round = [0u32; RINGS];
+        for s in 0..RINGS {
+            outer[s] = L::splat(rings.outer[s]);
+            all_round[s] = if rings.within_cone[s] { 0 } else { u32::MAX };
+        }
+        for segment in segments {
+            let (mut first, end) = (segment.first as usize, segment.end as usize);
+            // every segment begins a block
+            scratch.reserve((end - first).next_multiple_of(BLOCK));
+            let mut at = scratch.found;
+            let Scratch { row: rows, offset: offsets, squared: squares, marks, close, .. } = &mut *scratch;
+            let mut position = [&[][..]; D];
+            for a in 0..D {
+                position[a] = &view.others.position[a][..end + PADDING];
+            }
+            let (rows, squares, marks, close) = (&mut rows[..], &mut squares[..], &mut marks[..], &mut close[..]);
+            let offsets = &mut offsets.each_mut().map(|o| &mut o[..]);
+            let shift: [L; D] = splat(segment.shift);
+            while first < end {
+                let (mut nearer, mut seen) = ([0u32; RINGS], 0u32);
+                let squares = &mut squares[at..at + BLOCK];
+                let offsets = &mut offsets.each_mut().map(|o| &mut o[at..at + BLOCK]);
+                for n in 0..BLOCK / L::WIDTH {
+                    let part = n * L::WIDTH;
+                    let offset = offsets_to::<R, L, D, WAY>(view.space, &position, first + part, &shift, &me);
+                    let squared = crate::motion::dot(&offset, &offset);
+                    for s in 0..RINGS {
+                        nearer[s] |= squared.less(outer[s]).bits() << part;
+                    }
+                    seen |= crate::motion::in_view(&heading, &offset, squared, rings.cos_half).bits() << part;
+                    for a in 0..D {
+                        offset[a].store(&mut offsets[a][part..]);
+                    }
+                    squared.store(&mut squares[part..]);
+                }
+                let mut others = mask_of(end - first);
+                if row.wrapping_sub(first) < BLOCK {
+                    others &= !(1 << (row - first));
+                }
+                let mut inside = 0;
+                for s in 0..RINGS {
+                    marks[at / BLOCK][s] = (nearer[s] & !inside & (seen | all_round[s]) & others) as u16;
+                    inside = nearer[s];
+                }
+                close[at / BLOCK] = (nearer[0] & others) as u16;
+                for (l, row) in rows[at..at + BLOCK].iter_mut().enumerate() {
+                    *row = (first + l) as u32;
+                }
+                at += BLOCK;
+                first += BLOCK;
+            }
+            scratch.found = at;
+        }
+    }
+}
+
 /// Which lanes are neither infinite nor NaN.
 #[allow(clippy::eq_op, reason = "the difference of a number with itself is 0 unless it is infinite or not a number")]
 #[inline(always)]
@@ -778,12 +1019,12 @@ fn finite_lanes<R: Scalar, L: Lanes<R>>(value: L) -> L::Mask {
 
 /// The first `count` lanes as bits.
 #[inline(always)]
-fn mask_of(count: usize) -> u32 {
+pub(crate) fn mask_of(count: usize) -> u32 {
     if count >= 32 { u32::MAX } else { (1u32 << count) - 1 }
 }
 
 #[inline(always)]
-pub(crate) fn minimal_lanes<R: Scalar, L: Lanes<R>, const D: usize>(space: &Space<R, D>, axis: usize, d: L) -> L {
+pub(crate) fn minimal_lanes<R: Real, L: Lanes<R>, const D: usize>(space: &Space<R, D>, axis: usize, d: L) -> L {
     if let Edge::Periodic(length) = space.edges[axis] {
         let (length, half) = (L::splat(length), L::splat(length * R::HALF));
         let above = half.less_equal(d);
@@ -816,14 +1057,21 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         trace: Option<&mut Trace<R, D>>,
     ) -> Motion<R, D> {
         let stages = &self.stages;
-        let indirect = stages.detect(view, row, scratch, memory);
-        let selected = stages.own_sets && {
-            let offset = firsts(&scratch.offset, scratch.found);
-            let squared = &scratch.squared[..scratch.found];
-            self.law.select(&stages.sets, view.now.velocity(row).unit(), &offset, squared, &mut scratch.sets)
+        let mut indirect = false;
+        // an explanation goes the long way, over lists, which comes to the same
+        let quick = M::MARKS && trace.is_none();
+        scratch.close_within = R::ZERO;
+        let heading = view.now.velocity(row).unit();
+        let marked = match &stages.rings {
+            Some(rings) if quick => stages.mark(view, row, heading, rings, scratch),
+            _ => false,
         };
-        if !selected {
+        if !marked {
+            indirect = stages.detect(view, row, scratch, memory);
             stages.select(view, row, scratch, indirect);
+            if M::MARKS {
+                scratch.mark();
+            }
         }
         let position = view.now.position(row);
         let mut obstacles = core::mem::take(&mut scratch.obstacles);
@@ -834,11 +1082,14 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             stages.perceive_obstacles(view, position, &mut obstacles);
         }
         stages.load(view.now, row, scratch);
+        // whole blocks, where they are read by blocks
+        let count = if M::MARKS { scratch.found.next_multiple_of(BLOCK) } else { scratch.found };
         let seen = Percepts {
-            offset: firsts(&scratch.offset, scratch.found),
-            squared: &scratch.squared[..scratch.found],
+            offset: firsts(&scratch.offset, count),
+            squared: &scratch.squared[..count],
             row: &scratch.row[..scratch.found],
-            sets: &scratch.sets,
+            sets: if marked { &[] } else { &scratch.sets },
+            marks: &scratch.marks[..scratch.found.div_ceil(BLOCK)],
             others: if indirect { &scratch.sensed } else { view.others },
             columns: &stages.columns,
         };
@@ -847,7 +1098,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             id: view.now.id[row],
             position,
             velocity: view.now.velocity(row),
-            heading: view.now.velocity(row).unit(),
+            heading,
             own: &mut scratch.own,
             around: stages.around(view, row, position, &obstacles),
             trace,
@@ -892,10 +1143,15 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
                 (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() => reach - self.stages.radius,
                 _ => R::ZERO,
             };
-            let moved = (place - view.now.position(row)).length();
+            let moved = (place - view.now.position(row)).length_squared();
             // SAFETY: as above.
             unsafe {
-                out.clear.write(row, moved < room);
+                if out.close.blocks > 0 && scratch.close_within > R::ZERO {
+                    let blocks = out.close.blocks;
+                    out.close.marks.part(row * blocks..(row + 1) * blocks).copy_from_slice(&scratch.close[..blocks]);
+                    out.close.within.write(row, scratch.close_within);
+                }
+                out.clear.write(row, room > R::ZERO && moved < room * room);
                 out.write(row, place, velocity);
                 out.write_state(row, &self.stages.columns, &scratch.own);
                 out.write_state(row, &self.stages.body_columns, &body);
@@ -932,7 +1188,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         self.law.complete(start);
     }
     fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>) {
-        if M::WIDE {
+        if M::MARKS {
             with_lanes(level(), SweepListed { kernel: self, view, rows, out, scratch });
         } else {
             self.sweep_rows(view, rows, out, scratch);
@@ -1031,6 +1287,10 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             let mut near = squared.less(limit);
             if j.wrapping_sub(block.first) < L::WIDTH {
                 near = near.and(L::Mask::from_bits(!(1u32 << (j - block.first))));
+            }
+            if IMAGES && !near.any() {
+                // of all rows, most are near nobody; rows of cells are near somebody
+                continue;
             }
             let mut sets = self.law().classify::<L>(&block.me, &offset, squared, &other);
             for set in &mut sets {

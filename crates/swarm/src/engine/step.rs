@@ -34,10 +34,11 @@ impl<R: Scalar, const D: usize> World<R, D> {
         let mut next = core::mem::replace(&mut self.next, space::Columns::nothing());
         let mut memory = core::mem::take(&mut self.memory);
         let mut clear = core::mem::take(&mut self.clear);
+        let mut close = core::mem::take(&mut self.close);
         let mut scratch = core::mem::take(&mut self.scratch);
         {
             let view = self.view();
-            let out = Writer::new(&mut next, &mut memory, &mut clear);
+            let out = Writer::new(&mut next, &mut memory, &mut clear, &mut close);
             let worker_scratch = space::parallel::Shared::new(&mut scratch);
             let rows = self.now.len();
             let threads = self.workers.threads();
@@ -57,6 +58,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.next = next;
         self.memory = memory;
         self.clear = clear;
+        self.close = close;
         self.scratch = scratch;
         self.finish(self.dt, self.time + self.dt.to_f64());
     }
@@ -67,10 +69,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
             self.resolve_contacts();
         }
         if let Some(mut resources) = self.resources.take() {
-            let rows = core::mem::take(&mut self.rows);
-            let row_of = |id: u32| if rows.is_empty() { id as usize } else { rows[id as usize] as usize };
-            resources.update(&self.space, &mut self.next, row_of, self.seed, self.step, time, dt);
-            self.rows = rows;
+            resources.update(&self.space, &mut self.next, self.seed, self.step, time, dt);
             self.resources = Some(resources);
         }
         core::mem::swap(&mut self.now, &mut self.next);
@@ -104,7 +103,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.time += self.dt.to_f64();
         self.note_collisions();
         if let Some(mut resources) = self.resources.take() {
-            resources.update(&self.space, &mut self.now, |id| id as usize, self.seed, self.step, self.time, self.dt);
+            resources.update(&self.space, &mut self.now, self.seed, self.step, self.time, self.dt);
             self.resources = Some(resources);
         }
     }

@@ -1,14 +1,14 @@
 //! The world: columns, index, obstacles, resources, groups.
 
 use crate::detection::readings::ErrorCount;
-use crate::engine::kernel::{Index, Kernel, Scratch, Sensing, Stages, View};
+use crate::engine::kernel::{Close, Index, Kernel, Scratch, Sensing, Stages, View};
 use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
 use crate::models::{self, Catalogue, Models};
 use crate::motion::{Injected, Motion, Start as Completion};
 use crate::parameters::Scalar;
 use crate::physics::{Contact, Met, Mobility};
 use crate::resources::Resources;
-use crate::selection::{NamedSet, Perception, Reach};
+use crate::selection::{NamedSet, Perception, Reach, Rings};
 use crate::sensing::robot::Memory;
 use space::obstacles::Obstacles;
 use space::parallel::Workers;
@@ -105,6 +105,8 @@ pub struct World<R: Scalar, const D: usize> {
     pub(crate) places: [Vec<R>; D],
     /// Rows whose move is known to meet neither wall nor obstacle.
     pub(crate) clear: Vec<bool>,
+    /// Who is close to whom, where bodies are refused without cells.
+    pub(crate) close: Close<R>,
 }
 
 impl<R: Scalar, const D: usize> Group<R, D> {
@@ -216,7 +218,9 @@ where
             };
             identity |= needs.identity;
             let contact = group.contact.unwrap_or(model.contact);
+            let perfect = matches!(&sensing, Sensing::Ideal(ideal) if ideal.is_perfect());
             let stages = Stages {
+                rings: if perfect { Rings::of(&sets) } else { None },
                 first,
                 count: group.count as u32,
                 columns: own,
@@ -320,9 +324,11 @@ where
             push: Vec::new(),
             places: core::array::from_fn(|_| Vec::new()),
             clear: vec![false; agents],
+            close: Close::default(),
             declared,
         };
         world.place_groups(&plan)?;
+        world.note_close();
         world.obstacles.advance(0.0);
         world.start_clocks();
         world.settle();

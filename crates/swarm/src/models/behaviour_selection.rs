@@ -5,11 +5,13 @@
 //! number of its aligning neighbours (the study's Algorithm 1 and equations 1 to 7).
 
 use crate::card::*;
+use crate::engine::mask_of;
 use crate::motion::*;
 use crate::parameters::Scalar;
 use crate::selection::{NamedSet, Perception};
 use crate::sensing::cos_half;
 use crate::{choice, parameters};
+use space::lanes::{Lanes, Mask, Task, level, with_lanes};
 use space::{Column, ColumnKind, Real, Vector};
 
 choice! {
@@ -129,8 +131,8 @@ const ATTRACTION: usize = 2;
 /// Directions shorter than this share of their parts do not turn anyone.
 const SHORT: f64 = 1e-9;
 
-/// Up to so many nearest are kept in order while looking.
-const KEPT: usize = 16;
+/// Up to so many nearest are listed while looking.
+const KEPT: usize = BLOCK;
 
 #[derive(Clone, Copy)]
 enum Behaviour {
@@ -236,16 +238,16 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
 
 /// Which percepts an agent sees.
 trait Sight {
-    /// Named sets of a percept, as bits.
-    fn sets(&self, k: usize) -> u32;
+    /// Members of the named sets in a block of percepts.
+    fn marks(&self, block: usize) -> Marks;
 }
 
 /// Sight as selection found it.
-struct Selected<'a>(&'a [u32]);
+struct Selected<'a>(&'a [Marks]);
 impl Sight for Selected<'_> {
     #[inline(always)]
-    fn sets(&self, k: usize) -> u32 {
-        self.0[k]
+    fn marks(&self, block: usize) -> Marks {
+        self.0[block]
     }
 }
 
@@ -256,10 +258,18 @@ struct ByAxes<'a, R> {
     angles: (R, R),
 }
 impl<R: Scalar> Sight for ByAxes<'_, R> {
-    fn sets(&self, k: usize) -> u32 {
-        let sets = self.seen.sets[k];
-        let always = if self.law.avoid_blind { 0 } else { 1 << AVOIDANCE };
-        if sets != 0 && self.law.sees_by_axes(self.angles, self.seen.offset(k)) { sets } else { sets & always }
+    fn marks(&self, block: usize) -> Marks {
+        let mut marks = self.seen.marks[block];
+        for (set, members) in marks.iter_mut().enumerate() {
+            let hides = set != AVOIDANCE || self.law.avoid_blind;
+            for l in 0..BLOCK {
+                let hidden = hides
+                    && *members >> l & 1 == 1
+                    && !self.law.sees_by_axes(self.angles, self.seen.offset(block * BLOCK + l));
+                *members &= !(u16::from(hidden) << l);
+            }
+        }
+        marks
     }
 }
 
@@ -267,6 +277,8 @@ impl<R: Scalar> Sight for ByAxes<'_, R> {
 trait Term<R: Scalar> {
     /// That of a percept.
     fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3>;
+    /// The sum over a whole set.
+    fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3>;
 }
 
 /// Velocities, in place of headings: all are equally fast.
@@ -276,6 +288,10 @@ impl<R: Scalar> Term<R> for Velocities {
     fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3> {
         seen.velocity(k)
     }
+    #[inline(always)]
+    fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
+        sum_in_order::<R, Self>(seen, sight, set)
+    }
 }
 
 /// Unit vectors towards others.
@@ -283,15 +299,110 @@ struct Directions;
 impl<R: Scalar> Term<R> for Directions {
     #[inline(always)]
     fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3> {
-        let distance = seen.squared[k].root();
-        let per = if distance > R::TINY { R::ONE / distance } else { R::ZERO };
-        Vector([seen.offset[0][k] * per, seen.offset[1][k] * per, seen.offset[2][k] * per])
+        Vector(towards(&seen.offset(k).0, seen.squared[k]))
+    }
+    #[inline(always)]
+    fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
+        with_lanes(level(), SumOfDirections { seen, sight, set })
     }
 }
 
+/// Unit vectors of offsets, by one division each; zero where coincident.
 #[inline(always)]
-fn inside(sight: &impl Sight, k: usize, set: usize) -> bool {
-    sight.sets(k) >> set & 1 == 1
+fn towards<R: Scalar, L: Lanes<R>>(offset: &[L; 3], squared: L) -> [L; 3] {
+    let distance = squared.square_root();
+    let apart = L::splat(R::TINY).less(distance);
+    let per = L::choose(apart, L::splat(R::ONE) / distance, L::splat(R::ZERO));
+    [offset[0] * per, offset[1] * per, offset[2] * per]
+}
+
+/// The sum over a whole set, one member after the other.
+#[inline(always)]
+fn sum_in_order<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
+    let mut sum = Vector::ZERO;
+    for block in 0..seen.marks.len() {
+        let mut members = sight.marks(block)[set];
+        while members != 0 {
+            sum += T::of(seen, block * BLOCK + members.trailing_zeros() as usize);
+            members &= members - 1;
+        }
+    }
+    sum
+}
+
+/// Sums of the unit vectors towards every sixteenth member of a set each, so that the processor may add several at a time,
+/// and then the sum of these; the number does not depend on the processor.
+struct SumOfDirections<'a, R, S> {
+    seen: &'a Percepts<'a, R, 3>,
+    sight: &'a S,
+    set: usize,
+}
+impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
+    type Output = Vector<R, 3>;
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) -> Vector<R, 3> {
+        const ROOM: usize = 8 * BLOCK;
+        let Self { seen, sight, set } = self;
+        let percepts = seen.marks.len() * BLOCK;
+        let columns = [seen.offset[0], seen.offset[1], seen.offset[2], seen.squared].map(|c| &c[..percepts]);
+        // members side by side, whoever stands between them
+        let mut members = [[R::ZERO; ROOM]; 4];
+        let mut filled = 0;
+        let mut sums = [[L::splat(R::ZERO); BLOCK]; 3];
+        for block in 0..seen.marks.len() {
+            let marks = u32::from(sight.marks(block)[set]);
+            for part in (0..BLOCK).step_by(L::WIDTH) {
+                let bits = marks >> part & mask_of(L::WIDTH);
+                for (members, column) in members.iter_mut().zip(&columns) {
+                    L::load(&column[block * BLOCK + part..]).pack(bits, &mut members[filled..]);
+                }
+                filled += bits.count_ones() as usize;
+            }
+            if filled > ROOM - 2 * BLOCK {
+                let whole = filled - filled % BLOCK;
+                add_directions(&mut sums, &members, whole);
+                members.iter_mut().for_each(|column| column.copy_within(whole..whole + BLOCK, 0));
+                filled -= whole;
+            }
+        }
+        add_directions(&mut sums, &members, filled);
+        let mut sum = Vector::ZERO;
+        for a in 0..3 {
+            let mut each = [R::ZERO; BLOCK];
+            for part in (0..BLOCK).step_by(L::WIDTH) {
+                sums[a][part / L::WIDTH].store(&mut each[part..]);
+            }
+            let mut half = BLOCK / 2;
+            while half > 0 {
+                for l in 0..half {
+                    each[l] += each[l + half];
+                }
+                half /= 2;
+            }
+            sum.0[a] = each[0];
+        }
+        sum
+    }
+}
+
+/// Adds the unit vectors of the first `count` of these columns (offset, squared distance) to the sums of every sixteenth.
+#[inline(always)]
+fn add_directions<R: Scalar, L: Lanes<R>, const N: usize>(
+    sums: &mut [[L; BLOCK]; 3],
+    columns: &[[R; N]; 4],
+    count: usize,
+) {
+    for first in (0..count).step_by(BLOCK) {
+        for part in (0..BLOCK).step_by(L::WIDTH) {
+            let [x, y, z, squared] = columns.each_ref().map(|column| L::load(&column[first + part..]));
+            let there = L::Mask::from_bits(mask_of(count.saturating_sub(first + part)));
+            let unit = towards(&[x, y, z], squared);
+            for a in 0..3 {
+                let sum = &mut sums[a][part / L::WIDTH];
+                *sum = sum.add_where(there, unit[a]);
+            }
+        }
+    }
 }
 
 /// Whether percept `a` is nearer than `b`; ties go to the lower id.
@@ -300,135 +411,85 @@ fn before<R: Scalar>(seen: &Percepts<'_, R, 3>, a: usize, b: usize) -> bool {
     seen.squared[a] < seen.squared[b] || (seen.squared[a] == seen.squared[b] && seen.id(a) < seen.id(b))
 }
 
-/// Sums over a whole set, of every eighth percept each, so that the processor may add eight at a time; the number does not
-/// depend on the processor.
-const TOGETHER: usize = 8;
-
-#[inline(always)]
-fn sum_of_all<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
-    let mut sums = [[R::ZERO; TOGETHER]; 3];
-    let whole = seen.len() - seen.len() % TOGETHER;
-    for first in (0..whole).step_by(TOGETHER) {
-        for l in 0..TOGETHER {
-            let term = T::of(seen, first + l);
-            let chosen = inside(sight, first + l, set);
-            for a in 0..3 {
-                sums[a][l] += if chosen { term.0[a] } else { R::ZERO };
+/// The nearest `considered` of a set that has more members, in their order; none where that takes more than [`KEPT`] to tell.
+struct Nearest<'a, R, S> {
+    seen: &'a Percepts<'a, R, 3>,
+    sight: &'a S,
+    set: usize,
+    /// Number of members.
+    count: usize,
+    considered: usize,
+}
+impl<R: Scalar, S: Sight> Task<R> for Nearest<'_, R, S> {
+    type Output = Option<[u32; KEPT]>;
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) -> Option<[u32; KEPT]> {
+        let Self { seen, sight, set, count, considered } = self;
+        let squared = &seen.squared[..seen.marks.len() * BLOCK];
+        // the nearest of each lane's share of the set: so many of these as are considered are that near, so the nearest of
+        // the whole set are no farther
+        let mut least = [L::splat(R::INFINITY); KEPT];
+        let few = count <= KEPT;
+        for block in 0..if few { 0 } else { seen.marks.len() } {
+            let marks = u32::from(sight.marks(block)[set]);
+            for part in (0..BLOCK).step_by(L::WIDTH) {
+                let least = &mut least[part / L::WIDTH];
+                let nearer = L::load(&squared[block * BLOCK + part..]).lesser(*least);
+                *least = L::choose(L::Mask::from_bits(marks >> part), nearer, *least);
             }
         }
-    }
-    for k in whole..seen.len() {
-        let term = T::of(seen, k);
-        let chosen = inside(sight, k, set);
-        for a in 0..3 {
-            sums[a][k - whole] += if chosen { term.0[a] } else { R::ZERO };
+        let bound = if few { R::INFINITY } else { in_order::<R, L>(&least, considered) };
+        // a list of those that near, without branches
+        const ROOM: usize = 2 * KEPT;
+        let mut list = [0; ROOM + BLOCK];
+        let mut listed = 0;
+        for block in 0..seen.marks.len() {
+            let marks = u32::from(sight.marks(block)[set]);
+            for part in (0..BLOCK).step_by(L::WIDTH) {
+                let first = block * BLOCK + part;
+                let near = L::load(&squared[first..]).less_equal(L::splat(bound)).bits() & marks >> part;
+                L::pack_numbers(first as u32, near, &mut list[listed.min(ROOM)..]);
+                listed += near.count_ones() as usize;
+            }
         }
-    }
-    let mut sum = Vector::ZERO;
-    for a in 0..3 {
-        for l in 0..TOGETHER {
-            sum.0[a] += sums[a][l];
+        if listed > KEPT {
+            return None;
         }
+        let mut each = [R::INFINITY; KEPT];
+        for n in 0..listed {
+            each[n] = squared[list[n] as usize];
+        }
+        for part in (0..KEPT).step_by(L::WIDTH) {
+            least[part / L::WIDTH] = L::load(&each[part..]);
+        }
+        let bound = in_order::<R, L>(&least, considered);
+        let mut kept = [0; KEPT];
+        let mut filled = 0;
+        for n in 0..listed {
+            kept[filled % KEPT] = list[n];
+            filled += usize::from(each[n] <= bound);
+        }
+        (filled == considered).then_some(kept)
     }
-    sum
 }
 
-/// A squared distance that at least `considered` of a set do not exceed, and few others: so many members as this, each
-/// the nearest of its share of the set, are that near.
+/// The least of [`KEPT`] numbers that so many do not exceed.
 #[inline(always)]
-fn bound_of_nearest<R: Scalar>(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize, considered: usize) -> R {
-    let mut least = [R::INFINITY; KEPT];
-    let whole = seen.len() - seen.len() % KEPT;
-    for first in (0..whole).step_by(KEPT) {
-        for l in 0..KEPT {
-            let squared = if inside(sight, first + l, set) { seen.squared[first + l] } else { R::INFINITY };
-            least[l] = if squared < least[l] { squared } else { least[l] };
-        }
+fn in_order<R: Scalar, L: Lanes<R>>(numbers: &[L; KEPT], count: usize) -> R {
+    let mut each = [R::ZERO; KEPT];
+    for part in (0..KEPT).step_by(L::WIDTH) {
+        numbers[part / L::WIDTH].store(&mut each[part..]);
     }
-    for k in whole..seen.len() {
-        let squared = if inside(sight, k, set) { seen.squared[k] } else { R::INFINITY };
-        least[k - whole] = if squared < least[k - whole] { squared } else { least[k - whole] };
-    }
-    const HALF: usize = KEPT / 2;
-    if considered > HALF {
-        return in_order(&least, considered);
-    }
-    let mut half = [R::INFINITY; HALF];
-    for l in 0..HALF {
-        half[l] = if least[l] < least[l + HALF] { least[l] } else { least[l + HALF] };
-    }
-    in_order(&half, considered)
-}
-
-/// The least of a few numbers that so many do not exceed.
-#[inline(always)]
-fn in_order<R: Scalar, const N: usize>(numbers: &[R; N], count: usize) -> R {
     let mut bound = R::INFINITY;
-    for &number in numbers {
+    for number in each {
         let mut rank = 0;
-        for &other in numbers {
-            rank += usize::from(other <= number);
+        for part in 0..KEPT / L::WIDTH {
+            rank += numbers[part].less_equal(L::splat(number)).bits().count_ones();
         }
-        let better = rank >= count && number < bound;
+        let better = rank as usize >= count && number < bound;
         bound = if better { number } else { bound };
     }
     bound
-}
-
-/// The nearest of a set that has more than `considered` members, the nearest first.
-#[inline(always)]
-fn kept_nearest<R: Scalar>(
-    seen: &Percepts<'_, R, 3>,
-    sight: &impl Sight,
-    set: usize,
-    considered: usize,
-) -> [u32; KEPT] {
-    const LISTED: usize = 64;
-    let bound = bound_of_nearest(seen, sight, set, considered);
-    let mut kept = [0; KEPT];
-    let mut filled = 0;
-    for first in (0..seen.len()).step_by(LISTED) {
-        // a list first, without branches
-        let mut list = [0; LISTED];
-        let mut listed = 0;
-        for k in first..seen.len().min(first + LISTED) {
-            list[listed % LISTED] = k as u32;
-            listed += usize::from(inside(sight, k, set) & (seen.squared[k] <= bound));
-        }
-        for &k in &list[..listed] {
-            if filled < KEPT {
-                kept[filled] = k;
-                filled += 1;
-                continue;
-            }
-            // more than there is room for: the last of them in order goes
-            ordered(seen, &mut kept, filled);
-            if before(seen, k as usize, kept[KEPT - 1] as usize) {
-                kept[KEPT - 1] = k;
-            }
-        }
-    }
-    ordered(seen, &mut kept, filled);
-    kept
-}
-
-/// Puts the first `filled` of a list in order, the nearest first: each goes to the place that so many others are before it.
-#[inline(always)]
-fn ordered<R: Scalar>(seen: &Percepts<'_, R, 3>, list: &mut [u32; KEPT], filled: usize) {
-    let mut squared = [R::INFINITY; KEPT];
-    let mut id = [u32::MAX; KEPT];
-    for n in 0..filled {
-        (squared[n], id[n]) = (seen.squared[list[n] as usize], seen.id(list[n] as usize));
-    }
-    let unordered = *list;
-    for n in 0..filled {
-        let mut rank = 0;
-        for m in 0..KEPT {
-            let nearer = (squared[m] < squared[n]) | (squared[m] == squared[n]) & (id[m] < id[n]);
-            rank += usize::from(nearer);
-        }
-        list[rank % KEPT] = unordered[n];
-    }
 }
 
 impl<R: Scalar> BehaviourSelection<R> {
@@ -514,23 +575,27 @@ impl<R: Scalar> BehaviourSelection<R> {
         let considered = self.considered;
         let count = count as usize;
         if considered == 0 || considered >= count {
-            return sum_of_all::<R, T>(seen, sight, set);
+            return T::sum(seen, sight, set);
         }
         let mut sum = Vector::ZERO;
-        if considered <= KEPT {
-            for &k in &kept_nearest(seen, sight, set, considered)[..considered] {
+        if considered <= KEPT
+            && let Some(kept) = with_lanes(level(), Nearest { seen, sight, set, count, considered })
+        {
+            for &k in &kept[..considered] {
                 sum += T::of(seen, k as usize);
             }
             return sum;
         }
-        // too many to keep in order, too few to take all: whoever has fewer nearer ones than that
-        for k in 0..seen.len() {
-            if inside(sight, k, set) {
-                let mut rank = 0;
-                for j in 0..seen.len() {
-                    rank += usize::from(inside(sight, j, set) && before(seen, j, k));
-                }
-                if rank < considered {
+        // too many to list, or ties: whoever has fewer nearer ones than that
+        for block in 0..seen.marks.len() {
+            for l in (0..BLOCK).filter(|l| sight.marks(block)[set] >> l & 1 == 1) {
+                let k = block * BLOCK + l;
+                let nearer = |other: usize| {
+                    (0..BLOCK)
+                        .filter(|l| sight.marks(other)[set] >> l & 1 == 1 && before(seen, other * BLOCK + l, k))
+                        .count()
+                };
+                if (0..seen.marks.len()).map(nearer).sum::<usize>() < considered {
                     sum += T::of(seen, k);
                 }
             }
@@ -550,12 +615,8 @@ impl<R: Scalar> BehaviourSelection<R> {
         behaviour: Behaviour,
         drawn: Option<(f64, f64)>,
     ) {
-        let mut avoidance = Vector::ZERO;
-        for k in (0..seen.len()).filter(|&k| inside(sight, k, AVOIDANCE)) {
-            avoidance -= Directions::of(seen, k);
-        }
         me.note("obstacles", from_obstacles);
-        me.note("avoidance", avoidance);
+        me.note("avoidance", -sum_in_order::<R, Directions>(seen, sight, AVOIDANCE));
         let headings = self.sum_of_nearest::<Velocities>(seen, sight, ALIGNMENT, counts[ALIGNMENT]) / self.speed;
         me.note("alignment", headings);
         me.note("attraction", self.sum_of_nearest::<Directions>(seen, sight, ATTRACTION, counts[ATTRACTION]));
@@ -591,10 +652,10 @@ impl<R: Scalar> BehaviourSelection<R> {
     ) -> Motion<R, 3> {
         let (theta, phi) = (me.own[THETA], me.own[PHI]);
         let mut counts = [0u32; 3];
-        for k in 0..seen.len() {
-            let sets = sight.sets(k);
+        for block in 0..seen.marks.len() {
+            let marks = sight.marks(block);
             for set in 0..3 {
-                counts[set] += sets >> set & 1;
+                counts[set] += marks[set].count_ones();
             }
         }
         let (mut away, mut obstacles) = (Vector::<R, 3>::ZERO, 0u32);
@@ -621,18 +682,7 @@ impl<R: Scalar> BehaviourSelection<R> {
             _ => Behaviour::Avoid,
         };
         let wanted = match behaviour {
-            Behaviour::Avoid => {
-                let mut left = counts[AVOIDANCE];
-                let mut k = 0;
-                while left > 0 {
-                    if inside(sight, k, AVOIDANCE) {
-                        away -= Directions::of(seen, k);
-                        left -= 1;
-                    }
-                    k += 1;
-                }
-                away
-            }
+            Behaviour::Avoid => away - sum_in_order::<R, Directions>(seen, sight, AVOIDANCE),
             Behaviour::Align => {
                 self.sum_of_nearest::<Velocities>(seen, sight, ALIGNMENT, counts[ALIGNMENT]) / self.speed
             }
@@ -652,7 +702,7 @@ impl<R: Scalar> BehaviourSelection<R> {
         if let Behaviour::Search = behaviour {
             turn = limits[0] * draws.number("search_theta", 0.0, |s| 2.0 * s.uniform(1) - 1.0);
             rise = limits[1] * draws.number("search_phi", 0.0, |s| 2.0 * s.uniform(2) - 1.0);
-        } else if wanted.length() >= R::of(SHORT) {
+        } else if wanted.length_squared() >= R::of(SHORT * SHORT) {
             let (azimuth, elevation) = Self::angles_of(wanted, theta);
             turn = (azimuth - theta).wrapped().clamped(-limits[0], limits[0]);
             rise = (elevation - phi).clamped(-limits[1], limits[1]);
@@ -681,7 +731,7 @@ impl<R: Scalar> BehaviourSelection<R> {
 }
 
 impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
-    const WIDE: bool = true;
+    const MARKS: bool = true;
 
     fn sets(&self) -> Vec<NamedSet<R, 3>> {
         let [near, middle, far] = self.bounds();
@@ -710,38 +760,6 @@ impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
         }
         *start.velocity = Self::heading_of(start.own[THETA], start.own[PHI]) * self.speed;
     }
-    #[inline(always)]
-    fn select(
-        &self,
-        named: &[NamedSet<R, 3>],
-        heading: Vector<R, 3>,
-        offset: &[&[R]; 3],
-        squared: &[R],
-        sets: &mut [u32],
-    ) -> bool {
-        let [near, middle, far] = self.bounds().map(|bound| bound * bound);
-        // as `in_view`, for several percepts at a time; without a cone, in all directions
-        let cone = named[ATTRACTION].perception.cos_half();
-        let limit = cone.map_or(R::ZERO, |limit| limit * limit.abs());
-        let resting = heading.length_squared() <= R::ZERO || cone.is_none();
-        let behind = !self.avoid_blind;
-        let count = sets.len();
-        let [x, y, z] = offset.map(|o| &o[..count]);
-        let squared = &squared[..count];
-        for k in 0..count {
-            let along = heading[0] * x[k] + heading[1] * y[k] + heading[2] * z[k];
-            let ahead = limit * squared[k] <= along * along.abs();
-            let seen = ahead | (squared[k] <= R::TINY * R::TINY) | resting;
-            let (avoid, align) = (squared[k] < near, squared[k] < middle);
-            let attract = squared[k] < far;
-            // the innermost zone, by choices that become masked moves
-            let zone = if attract { 1 << ATTRACTION } else { 0 };
-            let zone = if align { 1 << ALIGNMENT } else { zone };
-            let zone = if avoid { 1 << AVOIDANCE } else { zone };
-            sets[k] = if seen | (avoid & behind) { zone } else { 0 };
-        }
-        true
-    }
     fn performed(&self, own: &mut [R], velocity: Vector<R, 3>) {
         if !velocity.is_tiny() {
             (own[THETA], own[PHI]) = Self::angles_of(velocity, own[THETA]);
@@ -750,7 +768,7 @@ impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
     #[inline(always)]
     fn decide(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, draws: &Draws<'_>) -> Motion<R, 3> {
         match self.view {
-            View::Cone => self.decided(me, seen, &Selected(seen.sets), draws),
+            View::Cone => self.decided(me, seen, &Selected(seen.marks), draws),
             View::Axes => {
                 let angles = (me.own[THETA], me.own[PHI]);
                 self.decided(me, seen, &ByAxes { law: self, seen, angles }, draws)

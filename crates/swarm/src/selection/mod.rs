@@ -73,6 +73,53 @@ impl<R, const D: usize> NamedSet<R, D> {
     }
 }
 
+/// So many named sets can be rings at once: the zones of repulsion, alignment and attraction of many laws.
+pub const RINGS: usize = 3;
+
+/// Named sets that are rings about the agent, each beginning where the one before ends, all round or within one cone about the
+/// heading. The engine marks them for several others at a time, where perception functions are asked one by one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rings<R> {
+    /// Squared outer radii. A ring that nobody can be in has that of the ring before.
+    pub outer: [R; RINGS],
+    /// Cosine of half the opening of the cone.
+    pub cos_half: R,
+    /// Whether the cone limits a ring.
+    pub within_cone: [bool; RINGS],
+}
+
+impl<R: Scalar> Rings<R> {
+    /// The rings that these sets are; `None` where they are anything else.
+    pub fn of<const D: usize>(sets: &[NamedSet<R, D>]) -> Option<Self> {
+        if sets.len() > RINGS {
+            return None;
+        }
+        let mut rings = Self { outer: [R::ZERO; RINGS], cos_half: -R::ONE, within_cone: [false; RINGS] };
+        let (mut cone, mut inner) = (None, R::ZERO);
+        for s in 0..RINGS {
+            let distance = match sets.get(s).map(|set| &set.perception) {
+                Some(Perception::Intersection(parts)) => match parts.as_slice() {
+                    [distance, Perception::Angle { cos_half, .. }] if cone.is_none_or(|other| other == *cos_half) => {
+                        cone = Some(*cos_half);
+                        rings.within_cone[s] = true;
+                        Some(distance)
+                    }
+                    _ => return None,
+                },
+                other => other,
+            };
+            match distance {
+                Some(Perception::DistanceBased { low, high }) if *low == inner => inner = *high,
+                Some(Perception::KNearest(0)) | None => {}
+                _ => return None,
+            }
+            rings.outer[s] = inner * inner;
+        }
+        rings.cos_half = cone.unwrap_or(rings.cos_half);
+        Some(rings)
+    }
+}
+
 /// Which others have to be looked at to evaluate a perception function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach<R> {
