@@ -1,5 +1,6 @@
 //! Resources that agents consume, and what consumption and its lack do to them.
 
+use space::obstacles::has_come;
 use space::random::{Purpose, uniform, unit_vector};
 use space::{Columns, Real, Space, Vector};
 
@@ -140,7 +141,7 @@ impl<R: Real, const D: usize> Resources<R, D> {
         for item in 0..self.place.len() {
             self.consumer[item] = None;
             if let Some(until) = self.absent_until[item] {
-                if time >= until {
+                if has_come(until, time) {
                     self.absent_until[item] = None;
                 }
                 continue;

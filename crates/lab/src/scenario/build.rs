@@ -523,7 +523,7 @@ where
         first,
         count: group.count,
         body_radius,
-        initial_speed: prepared.initial_speed(),
+        initial_speeds: prepared.initial_speeds(),
     };
     let default = Start::default();
     let start =

@@ -4,7 +4,7 @@
 use crate::card::Card;
 use crate::engine::{Kernel, Listed, Stages, Streamed};
 use crate::motion::{Law, Model, Needs, Stream, Summed};
-use crate::parameters::{Descriptor, ParameterError, Parameters, Scalar, Values};
+use crate::parameters::{Descriptor, Kind, Parameter, ParameterError, Parameters, Points, Scalar, Values};
 use crate::physics::Contact;
 use crate::selection::NamedSet;
 use space::Column;
@@ -24,7 +24,8 @@ pub struct Prepared<R, const D: usize> {
     pub(crate) body_radius: R,
     pub(crate) contact: Contact,
     pub(crate) bodies_meet: bool,
-    pub(crate) initial_speed: R,
+    /// For each member.
+    pub(crate) initial_speeds: Vec<R>,
     /// Finishes the kernel when the stages are resolved.
     pub(crate) build: Box<dyn FnOnce(Stages<R, D>) -> Box<dyn Kernel<R, D>>>,
     /// The neighbourhood a streaming law sums over, for choosing the index.
@@ -36,9 +37,9 @@ impl<R: Scalar, const D: usize> Prepared<R, D> {
     pub fn body_radius(&self) -> R {
         self.body_radius
     }
-    /// Speed at which members begin, unless their velocities are given.
-    pub fn initial_speed(&self) -> R {
-        self.initial_speed
+    /// Speed at which each member begins, unless its velocity is given.
+    pub fn initial_speeds(&self) -> &[R] {
+        &self.initial_speeds
     }
     /// Time of a step.
     pub fn time_step(&self) -> R {
@@ -57,6 +58,7 @@ fn prepared<R: Scalar, const D: usize, M: Law<R>>(
     stream_reach: Option<R>,
     build: fn(M, Stages<R, D>) -> Box<dyn Kernel<R, D>>,
 ) -> Result<Prepared<R, D>, ParameterError> {
+    points_have_all_coordinates::<R, D, M>(&law)?;
     law.check(members).map_err(ParameterError::Together)?;
     Ok(Prepared {
         sets: sets(&law),
@@ -67,10 +69,26 @@ fn prepared<R: Scalar, const D: usize, M: Law<R>>(
         body_radius: law.body_radius(),
         contact: law.contact(),
         bodies_meet: law.bodies_meet(),
-        initial_speed: law.initial_speed(),
+        initial_speeds: (0..members).map(|member| law.initial_speed_of(member)).collect(),
         stream_reach,
         build: Box::new(move |stages| build(law, stages)),
     })
+}
+
+/// Refuses a point that lacks a coordinate: to the law it would be none at all.
+fn points_have_all_coordinates<R: Scalar, const D: usize, M: Law<R>>(law: &M) -> Result<(), ParameterError> {
+    let values = law.values();
+    for descriptor in M::descriptors().iter().filter(|descriptor| descriptor.takes == Kind::Points) {
+        let points = values.get(descriptor.name).and_then(Points::<R>::read).unwrap_or(Points(Vec::new()));
+        if let Some(short) = points.0.iter().find(|point| point.len() != D) {
+            return Err(ParameterError::Together(format!(
+                "`{}` needs {D} coordinates for each point, found {}",
+                descriptor.name,
+                short.len()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// A law that is given lists.
