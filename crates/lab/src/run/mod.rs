@@ -152,6 +152,12 @@ fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), 
     };
     if let Some(out) = &request.out {
         let manifest = folder::manifest(out)?;
+        if manifest.as_ref().is_some_and(|manifest| manifest.get("identity").is_none()) {
+            return Err(StoreError::Damaged(format!(
+                "`{}` does not say what was run; choose another folder with --out",
+                out.join(folder::MANIFEST).display()
+            )));
+        }
         if let Some(program) = manifest.as_ref().filter(|manifest| same(manifest)).and_then(other_build) {
             return Err(StoreError::Refused(format!(
                 "the unfinished run in `{}` was begun by another build of the program ({program}), whose numbers may \
