@@ -323,7 +323,7 @@ fn build_id() -> String {
 /// alone, so that a run that was stopped has them at the same steps.
 fn spacing(agents: u64, schedule: &Schedule) -> (u64, u64) {
     let agents = agents.max(1);
-    let by_bytes = schedule.steps.saturating_mul(agents) / (GROWN_STATES / STATE_BYTES);
+    let by_bytes = schedule.steps.saturating_mul(agents).div_ceil(GROWN_STATES / STATE_BYTES);
     let state = (STATE_UPDATES / agents).max(STATE_STEPS).max(by_bytes);
     let block = (BLOCK_UPDATES / agents).min(schedule.steps / 10) / state;
     (state, state * block.max(1))
