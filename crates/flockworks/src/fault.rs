@@ -1,5 +1,6 @@
 //! What can go wrong, and the exit code it means.
 
+use lab::store::StoreError;
 use std::io;
 
 /// Why a command could not do what was asked.
@@ -51,7 +52,8 @@ impl From<io::Error> for Fault {
         if error.kind() == io::ErrorKind::BrokenPipe {
             Self::Closed
         } else {
-            Self::Ours(format!("cannot write to standard output: {error}"))
+            // a full disk, mostly
+            Self::Input(StoreError::Io { doing: "write to standard output".into(), error }.to_string())
         }
     }
 }

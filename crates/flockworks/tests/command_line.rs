@@ -162,6 +162,15 @@ fn wrong_values_are_named_by_the_path_of_their_key() {
 }
 
 #[test]
+fn a_full_disk_behind_standard_output_is_told_and_is_no_fault_of_ours() {
+    let Ok(full) = std::fs::OpenOptions::new().write(true).open("/dev/full") else { return };
+    let run = std::process::Command::new(env!("CARGO_BIN_EXE_flockworks")).arg("models").stdout(full).output().unwrap();
+    assert_eq!(run.status.code(), Some(2));
+    let told = String::from_utf8_lossy(&run.stderr);
+    assert!(told.contains("cannot write to standard output") && !told.contains("os error"), "{told}");
+}
+
+#[test]
 fn wrong_options_are_refused() {
     assert_eq!(flockworks(&["step"]).code, Some(2));
     assert_eq!(flockworks(&["stepp", "x.json"]).code, Some(2));

@@ -323,6 +323,20 @@ fn what_is_wrong_in_a_file_is_shown_at_its_place() {
             &["given already", "given twice"],
         ),
         ("gallery/starlings.toml", "step = 0.1", "step = 0.1\nstep = 0.2", &["not TOML"]),
+        ("schooling.toml", "spacing = 2", "spacing = 1e308", &["`spacing` must be from -1e15 to 1e15, found 1e308"]),
+        (
+            "gallery/starlings.toml",
+            "neighbour_count = 7",
+            "neighbour_count = 1e308",
+            &["`neighbour_count`", "found 1e308"],
+        ),
+        ("gallery/bottleneck.toml", "normal = [1.34, 0.26]", "normal = [1.34, 1e20]", &["1e20"]),
+        (
+            "gallery/foraging.toml",
+            "chromosome = [1, 30, 1, 10, 0.025, 1,",
+            "chromosome = [1, 30, 1, 10, 0.025, {},",
+            &["`chromosome` takes a list", "found a table in it"],
+        ),
     ];
     for (file, from, to, parts) in cases {
         let shown = problems(file, from, to);

@@ -240,6 +240,11 @@ fn nonsense_is_answered_and_too_much_is_cut_off() {
         say(&mut first, 1, nonsense.as_bytes());
         until(&mut first, "problem");
     }
+    // more steps than can ever be made are in nobody's way
+    tell(&mut first, &json!({ "do": "step", "count": i64::MAX }));
+    tell(&mut first, &json!({ "do": "fly" }));
+    until(&mut first, "problem");
+    tell(&mut first, &json!({ "do": "pause" }));
     // it still works
     tell(&mut first, &json!({ "do": "step", "count": 1 }));
     frame(&mut first);

@@ -174,7 +174,9 @@ where
     Models: Catalogue<R, D>,
 {
     fn open(folder: &Path, scenario: &Scenario, seed: u64) -> Result<Self, StoreError> {
-        let world = build::world::<R, D>(scenario, seed, 1).map_err(StoreError::Refused)?;
+        let agents = scenario.group.0.iter().map(|(_, group)| group.count).sum();
+        let threads = crate::run::threads_for(agents);
+        let world = build::world::<R, D>(scenario, seed, threads).map_err(StoreError::Refused)?;
         let path = folder.join(KEYFRAMES);
         let (log, records) = Log::open_to_read(&path)?;
         if records.iter().any(|record| record.kind != kind::KEYFRAME) {
@@ -208,11 +210,14 @@ where
         }
         Ok(early)
     }
+    /// The nearest full state that is not later than a step, none for the start; and its step.
+    fn nearest(&mut self, step: u64) -> Result<(Option<usize>, u64), StoreError> {
+        let nearest = self.states_until(step)?.checked_sub(1);
+        Ok((nearest, nearest.and_then(|nearest| self.states[nearest].1).unwrap_or(0)))
+    }
     /// Brings the world to the beginning of a step.
     fn go_to(&mut self, step: u64) -> Result<(), StoreError> {
-        let until = self.states_until(step)?;
-        let nearest = until.checked_sub(1);
-        let from = nearest.and_then(|nearest| self.states[nearest].1).unwrap_or(0);
+        let (nearest, from) = self.nearest(step)?;
         if !(from..=step).contains(&self.world.step_number()) {
             let state = match nearest {
                 Some(nearest) => self.state(nearest)?,
@@ -248,7 +253,7 @@ where
 #[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
-    use crate::run::{End, Request, Watch, run};
+    use crate::run::{End, Request, STATE_UPDATES, Watch, run};
 
     struct Nobody;
     impl Watch for Nobody {
@@ -335,6 +340,12 @@ interval = 1
             for frame in [0, 1, last / 2, last - 1, last] {
                 let told = at(&folder, frame, 11).unwrap();
                 assert_eq!(told, live(&read, first + frame * every, 11), "{name} frame {frame}");
+            }
+            // no frame is far from a full state
+            let mut again = Again::<f64, 2>::open(&folder, &read.scenario, 7).unwrap();
+            for step in (first..=steps).step_by(every as usize) {
+                let (_, from) = again.nearest(step).unwrap();
+                assert!((step - from) * 90 <= STATE_UPDATES, "{name}: step {step} from {from}");
             }
             // forth and back, on both sides of a full state
             let mut past = past(&folder, &read.scenario, 7).unwrap();

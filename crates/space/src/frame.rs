@@ -48,6 +48,14 @@ impl<R: Real, const D: usize> Columns<R, D> {
     pub fn is_empty(&self) -> bool {
         self.agents == 0
     }
+    /// Rows in the order of their ids, `[agents]`.
+    pub fn rows_by_id(&self) -> Vec<usize> {
+        let mut rows = vec![0; self.agents];
+        for (row, &id) in self.id[..self.agents].iter().enumerate() {
+            rows[id as usize] = row;
+        }
+        rows
+    }
     /// Position of a row.
     #[inline(always)]
     pub fn position(&self, row: usize) -> Vector<R, D> {
@@ -129,11 +137,7 @@ pub struct Frame<'a, R, const D: usize> {
 impl<R: Real, const D: usize> Frame<'_, R, D> {
     /// Rows in the order of their ids, `[agents]`.
     pub fn rows_by_id(&self) -> Vec<usize> {
-        let mut rows = vec![0; self.columns.len()];
-        for row in 0..self.columns.len() {
-            rows[self.columns.id[row] as usize] = row;
-        }
-        rows
+        self.columns.rows_by_id()
     }
     /// A hash of the whole state in the order of ids (FNV-1a over the bits): equal states, equal hash.
     pub fn hash(&self) -> u64 {

@@ -30,15 +30,20 @@ impl<R, const D: usize> Default for Plan<R, D> {
     }
 }
 
+/// Whether a moment has come at `time`, which may be a multiple of a step: 3 steps of 0.7 are a little less than 2.1.
+pub fn has_come(moment: f64, time: f64) -> bool {
+    time >= moment - 1e-12 * moment.abs()
+}
+
 impl<R: Real, const D: usize> Plan<R, D> {
     /// Whether the obstacle is there at `time`: from `appears` on, until before `disappears`.
     pub fn present(&self, time: f64) -> bool {
-        self.appears <= time && time < self.disappears
+        has_come(self.appears, time) && !has_come(self.disappears, time)
     }
 
     /// Offset from the drawn place at `time`.
     pub fn offset(&self, time: f64) -> Vector<R, D> {
-        let passed = self.waypoints.partition_point(|&(at, _)| at <= time);
+        let passed = self.waypoints.partition_point(|&(at, _)| has_come(at, time));
         let next = self.waypoints.get(passed);
         match (passed.checked_sub(1).and_then(|last| self.waypoints.get(last)), next) {
             (None, None) => Vector::ZERO,
@@ -815,6 +820,20 @@ mod tests {
         let obstacles = Obstacles::new(vec![corner; 2], [Some(4.0); 2], 3.0).unwrap();
         let indices: Vec<_> = seen(&obstacles, Vector([2.0, 2.0]), 3.0).iter().map(|(index, _)| *index).collect();
         assert_eq!(indices, [0, 0, 0, 0, 1, 1, 1, 1]);
+    }
+
+    #[test]
+    fn a_moment_has_come_in_the_step_that_is_written_as_its_multiple() {
+        assert!(3.0 * 0.7 < 2.1, "what the rule is for");
+        for step in [0.1, 0.7, 0.3, 1e-3, 12.6] {
+            for n in 1..2000u32 {
+                let moment: f64 = format!("{:.4}", step * f64::from(n)).parse().unwrap();
+                let plan = Plan::<f64, 2> { appears: moment, ..Plan::default() };
+                assert!(plan.present(step * f64::from(n)), "{n} steps of {step}");
+                assert!(!plan.present(step * (f64::from(n) - 1e-6)), "{n} steps of {step}");
+            }
+        }
+        assert!(Plan::<f64, 2>::default().present(0.0) && Plan::<f64, 2>::default().present(1e300));
     }
 
     #[test]

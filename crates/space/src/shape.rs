@@ -62,6 +62,8 @@ pub enum ShapeError {
     LowAboveHigh,
     /// A polygon has fewer than three vertices.
     FewVertices,
+    /// Two edges of a polygon cross: by their numbers, from 0, each from the vertex of its number to the next.
+    Crossing(usize, usize),
     /// A plane's normal has no length.
     ZeroNormal,
     /// A polygon was given outside two dimensions.
@@ -79,6 +81,12 @@ pub enum ShapeError {
 impl fmt::Display for ShapeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::Crossing(a, b) => {
+                return write!(
+                    f,
+                    "a polygon must not cross itself: its edges from vertex {a} and from vertex {b} (counted from 0) do"
+                );
+            }
             Self::NotFinite => "an obstacle has a number that is infinite, not a number or too great to be squared",
             Self::NegativeRadius => "a ball's radius must be 0 or more",
             Self::LowAboveHigh => "a cuboid's low corner must not exceed its high corner on any axis",
@@ -94,6 +102,22 @@ impl fmt::Display for ShapeError {
 }
 
 impl core::error::Error for ShapeError {}
+
+/// The first two edges of a polygon that cross.
+fn crossing<R: Real, const D: usize>(vertices: &[Vector<R, D>]) -> Option<(usize, usize)> {
+    let edge = |k: usize| (vertices[k], vertices[(k + 1) % vertices.len()]);
+    // on which side of the line from `a` to `b` a point lies
+    let side = |(a, b): (Vector<R, D>, Vector<R, D>), p: Vector<R, D>| {
+        let (along, to) = (b - a, p - a);
+        along[0] * to[1] - along[1] * to[0]
+    };
+    let parts = |line, (p, q)| {
+        let (p, q) = (side(line, p), side(line, q));
+        (p < R::ZERO && q > R::ZERO) || (p > R::ZERO && q < R::ZERO)
+    };
+    let crosses = |&(a, b): &(usize, usize)| parts(edge(a), edge(b)) && parts(edge(b), edge(a));
+    (0..vertices.len()).flat_map(|a| (a + 1..vertices.len()).map(move |b| (a, b))).find(crosses)
+}
 
 /// Where an obstacle is nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -457,10 +481,10 @@ impl<R: Real, const D: usize> Shape<R, D> {
     pub fn new_segment(from: Vector<R, D>, to: Vector<R, D>) -> Result<Self, ShapeError> {
         Self::Segment { from, to }.checked()
     }
-    /// A solid polygon with its vertices in order, either way round. That it does not cross itself is not checked.
+    /// A solid polygon with its vertices in order, either way round. It may touch itself.
     ///
     /// # Errors
-    /// When a number is not finite, there are fewer than three vertices, or space has not two dimensions.
+    /// When a number is not finite, there are fewer than three vertices, two edges cross, or space has not two dimensions.
     pub fn new_polygon(vertices: Vec<Vector<R, D>>) -> Result<Self, ShapeError> {
         Self::Polygon { vertices }.checked()
     }
@@ -501,6 +525,9 @@ impl<R: Real, const D: usize> Shape<R, D> {
                     return Err(ShapeError::FewVertices);
                 }
                 measured(vertices.iter().all(|v| measurable(*v)))?;
+                if let Some((a, b)) = crossing(vertices) {
+                    return Err(ShapeError::Crossing(a, b));
+                }
             }
             Self::Cuboid { low, high } => {
                 measured(measurable(*low) && measurable(*high))?;
@@ -860,6 +887,19 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
         }
+    }
+
+    #[test]
+    fn a_polygon_that_crosses_itself_is_refused_and_one_that_touches_itself_is_not() {
+        let polygon = |points: &[[f64; 2]]| Shape::new_polygon(points.iter().map(|&p| Vector(p)).collect());
+        let bow = polygon(&[[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]);
+        assert_eq!(bow, Err(ShapeError::Crossing(0, 2)));
+        assert!(ShapeError::Crossing(0, 2).to_string().contains("from vertex 0 and from vertex 2"));
+        let star: Vec<[f64; 2]> = (0..5).map(|k| Vector::<f64, 2>::at_angle(0.8 * f64::from(k) * f64::PI).0).collect();
+        assert!(polygon(&star).is_err());
+        assert!(polygon(&[[0.0, 0.0], [2.0, 0.0], [1.0, 0.5], [2.0, 2.0], [0.0, 2.0]]).is_ok(), "a dent");
+        assert!(polygon(&[[0.0, 0.0], [2.0, 0.0], [1.0, 1.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0]]).is_ok(), "a waist");
+        assert!(polygon(&[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]]).is_ok(), "flat");
     }
 
     #[test]

@@ -450,6 +450,10 @@ pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
     fn initial_speed(&self) -> R {
         R::ONE
     }
+    /// The same for one member, by its index in the group, where members differ.
+    fn initial_speed_of(&self, _member: usize) -> R {
+        self.initial_speed()
+    }
     /// Checks that need the number of members (lists with one entry each) or concern several parameters at once.
     ///
     /// # Errors

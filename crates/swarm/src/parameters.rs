@@ -127,7 +127,23 @@ pub enum Range {
     Within(f64, f64),
 }
 
+/// Largest size of a number that is given: beyond it positions have no fractions left, and squares soon overflow.
+pub const GREATEST: f64 = 1e15;
+
 impl Range {
+    /// Whether a number that is given lies in the range and is no larger than a world can compute with.
+    ///
+    /// # Errors
+    /// What was expected.
+    pub fn admits(&self, value: f64) -> Result<(), String> {
+        if !self.holds(value) {
+            Err(self.to_string())
+        } else if value.abs() > GREATEST {
+            Err(format!("from -{GREATEST:e} to {GREATEST:e}"))
+        } else {
+            Ok(())
+        }
+    }
     /// Whether a number lies in the range.
     pub fn holds(&self, value: f64) -> bool {
         value.is_finite()
@@ -448,15 +464,15 @@ pub fn checked<T: Parameter>(descriptor: &Descriptor, value: &Value) -> Result<T
     })?;
     let mut outside = None;
     read.numbers(&mut |number| {
-        if outside.is_none() && !descriptor.range.holds(number) {
-            outside = Some(number);
+        if outside.is_none() {
+            outside = descriptor.range.admits(number).err().map(|expected| (expected, number));
         }
     });
     match outside {
-        Some(number) => Err(ParameterError::Range {
+        Some((expected, number)) => Err(ParameterError::Range {
             name: descriptor.name.into(),
-            expected: descriptor.range.to_string(),
-            found: number.to_string(),
+            expected,
+            found: if number.abs() > GREATEST { format!("{number:e}") } else { number.to_string() },
         }),
         None => Ok(read),
     }

@@ -3,6 +3,7 @@
 use crate::engine::{mask_of, minimal_lanes};
 use crate::motion::{WIDEST, dot};
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
+use space::obstacles::has_come;
 use space::random::{Purpose, uniform, unit_vector};
 use space::{Columns, Real, Space, Vector};
 
@@ -129,7 +130,7 @@ impl<R: Real, const D: usize> Resources<R, D> {
         for item in 0..self.place.len() {
             self.consumer[item] = None;
             if let Some(until) = self.absent_until[item] {
-                if time >= until {
+                if has_come(until, time) {
                     self.absent_until[item] = None;
                 }
                 continue;

@@ -6,10 +6,10 @@ use space::shape::Shape;
 use space::{Space, Vector};
 use swarm::detection::readings::{Clustering, Matching, ReadingDetection};
 use swarm::engine::Checkpoint;
-use swarm::engine::{Clock, GroupPlan, IndexChoice, Phase, Placement, Sensing, Start};
+use swarm::engine::{Clock, GroupPlan, IndexChoice, Order, Phase, Placement, Sensing, Start};
 use swarm::models::LIST;
 use swarm::parameters::{Value, Values};
-use swarm::physics::{Contact, DifferentialDrive, Mobility};
+use swarm::physics::{Contact, DifferentialDrive, Met, Mobility};
 use swarm::resources::{Gain, Metabolism, ResourcePlan, Respawn};
 use swarm::selection::Perception;
 use swarm::sensing::robot::Robot;
@@ -296,6 +296,103 @@ fn groups_with_unlike_steps_are_refused() {
     plan.groups.push(GroupPlan::new("b", "couzin_2002", Values::new(), 2, box_()));
     let text = World::new(plan).map(|_| ()).unwrap_err().to_string();
     assert!(text.contains("group `b`") && text.contains("0.1"), "{text}");
+}
+
+#[test]
+fn time_is_a_multiple_of_the_step_in_both_precisions() {
+    let parameters = values(&[("time_step", 0.7.into())]);
+    let group = GroupPlan::new(
+        "two",
+        "reynolds_opensteer",
+        parameters.clone(),
+        2,
+        given(&[[1.0, 1.0], [5.0, 5.0]], &[[0.0; 2]; 2]),
+    );
+    let mut world = World::new(WorldPlan::new(Space::open(), group)).unwrap();
+    let start = Start {
+        position: vec![Vector([1.0f32, 1.0]), Vector([5.0, 5.0])],
+        velocity: None,
+        columns: Default::default(),
+    };
+    let group = GroupPlan::new("two", "reynolds_opensteer", parameters, 2, Placement::Given(start));
+    let mut single = World::new(WorldPlan::new(Space::open(), group)).unwrap();
+    for step in 1..=1000 {
+        world.step();
+        single.step();
+        assert_eq!((world.time(), single.time()), (0.7 * f64::from(step), 0.7 * f64::from(step)));
+    }
+    // a state that was reached with another step goes on from its own time
+    let saved = world.save();
+    let group = GroupPlan::new(
+        "two",
+        "reynolds_opensteer",
+        values(&[("time_step", 0.1.into())]),
+        2,
+        given(&[[1.0, 1.0]; 2], &[[0.0; 2]; 2]),
+    );
+    let mut other = World::new(WorldPlan::new(Space::open(), group)).unwrap();
+    other.restore(&saved).unwrap();
+    other.run(3);
+    assert_eq!(other.time(), 700.0 + 0.1 * 3.0);
+}
+
+#[test]
+fn bodies_turned_round_tell_their_law_under_every_driver() {
+    let drivers = [
+        Driver::Synchronous,
+        Driver::Sequential(Order::Random),
+        Driver::Asynchronous {
+            tick: 1.0,
+            period: 1.0,
+            phase: Phase::Together,
+            clock: Clock::Regular { jitter: 0.0 },
+            delay: 0.0,
+        },
+    ];
+    for driver in drivers {
+        for contact in [Contact::Reflect, Contact::Clamp] {
+            let start = Start {
+                position: vec![Vector([0.05, 5.0, 5.0])],
+                velocity: Some(vec![Vector([-1.0, 0.0, 0.0])]),
+                columns: Default::default(),
+            };
+            let mut group = GroupPlan::new("one", "behaviour_selection", Values::default(), 1, Placement::Given(start));
+            group.contact = Some(contact);
+            let mut plan = WorldPlan::new(Space::walled([10.0; 3]), group);
+            plan.driver = driver;
+            let mut world = World::<f64, 3>::new(plan).unwrap();
+            let column = world.frame().declared.iter().position(|column| column.name == "theta").unwrap();
+            let mut turned = false;
+            for _ in 0..20 {
+                world.step();
+                let columns = world.frame().columns;
+                let velocity = columns.velocity(0);
+                let heading = velocity[1].atan2(velocity[0]);
+                let off = (columns.state[column][0] - heading).sin().abs();
+                assert!(off < 1e-9, "{driver:?}, {contact:?}: theta is {} off its heading", off);
+                turned |= world.met()[0] == Met::Wall;
+            }
+            assert!(turned, "{driver:?}, {contact:?}: it never met the wall");
+        }
+    }
+}
+
+#[test]
+fn points_that_lack_a_coordinate_and_members_with_speeds_of_their_own() {
+    let each = Value::List(vec![0.5.into(), 1.5.into()]);
+    let target = |point: Vec<Value>| {
+        let parameters = values(&[("desired_speed", each.clone()), ("target", Value::List(point))]);
+        let place = Placement::Uniform { low: Vector([0.0, 0.0]), high: Vector([9.0, 9.0]) };
+        World::<f64, 2>::new(WorldPlan::new(
+            Space::open(),
+            GroupPlan::new("crowd", "helbing_2005", parameters, 2, place),
+        ))
+    };
+    let short = target(vec![1.0.into()]).err().unwrap().to_string();
+    assert!(short.contains("`target` needs 2 coordinates for each point, found 1"), "{short}");
+    let world = target(vec![1.0.into(), 2.0.into()]).unwrap();
+    let speeds = [0, 1].map(|row| world.frame().columns.velocity(row).length());
+    assert!((speeds[0] - 0.5).abs() < 1e-12 && (speeds[1] - 1.5).abs() < 1e-12, "{speeds:?}");
 }
 
 #[test]

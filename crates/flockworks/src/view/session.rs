@@ -42,6 +42,8 @@ pub(super) struct Session {
     rate: f64,
     /// Steps that are due, with the part of one that is not yet.
     due: f64,
+    /// Steps that were asked for by number and are not made yet.
+    ahead: i64,
     focus: Option<u32>,
     number: u32,
     seen: u32,
@@ -73,6 +75,7 @@ impl Session {
             looped: false,
             rate: 0.0,
             due: 0.0,
+            ahead: 0,
             focus: None,
             number: 0,
             seen: 0,
@@ -117,6 +120,9 @@ impl Session {
     }
     /// How long to wait for the page before going on.
     fn wait(&self) -> Duration {
+        if self.ahead > 0 {
+            return Duration::ZERO;
+        }
         if self.shown.is_none() || !self.playing {
             // a frame that could not be sent is sent as soon as the page has seen another, which it says
             return IDLE;
@@ -157,13 +163,20 @@ impl Session {
                 self.due = 0.0;
                 self.clock = Instant::now();
             }
-            "pause" => self.playing = false,
+            "pause" => {
+                self.stale |= self.ahead > 0;
+                (self.playing, self.ahead) = (false, 0);
+            }
             "step" => {
                 let count =
                     message.get("count").and_then(Json::as_i64).ok_or_else(|| wanted("`step` needs a count"))?;
                 self.playing = false;
-                shown.advance(count.clamp(-100_000, 100_000))?;
-                self.stale = true;
+                if self.recorded {
+                    shown.advance(count)?;
+                    self.stale = true;
+                } else {
+                    self.ahead = self.ahead.saturating_add(count.max(0));
+                }
             }
             "speed" => {
                 let rate = message.get("rate").and_then(Json::as_f64).filter(|rate| rate.is_finite());
@@ -244,7 +257,7 @@ impl Session {
             self.tell(&all);
         }
         (self.items, self.explained) = (None, None);
-        (self.stale, self.due) = (true, 0.0);
+        (self.stale, self.due, self.ahead) = (true, 0.0, 0);
         self.measured = Instant::now() - Duration::from_secs(1);
     }
     /// Makes the steps that are due, as far as the time reaches.
@@ -252,13 +265,18 @@ impl Session {
         let elapsed = self.clock.elapsed();
         self.clock = Instant::now();
         let Some(shown) = &mut self.shown else { return };
+        let began = Instant::now();
+        while self.ahead > 0 && began.elapsed() <= SLICE {
+            self.ahead = if shown.advance(1).is_ok() { self.ahead - 1 } else { 0 };
+            // what was asked for is the moment after the last of them
+            self.stale |= self.ahead == 0;
+        }
         if !self.playing {
             return;
         }
         let fastest = self.rate == 0.0;
         self.due += elapsed.as_secs_f64() * self.rate.abs();
         let direction = if self.rate < 0.0 { -1 } else { 1 };
-        let began = Instant::now();
         while fastest || self.due >= 1.0 {
             match shown.advance(direction) {
                 Ok(0) if self.looped && self.recorded => {

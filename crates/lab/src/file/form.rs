@@ -3,7 +3,7 @@
 use super::source::{Problem, Span};
 use super::tree::{Entry, Node, Tree};
 use space::spelling::nearest;
-use swarm::parameters::Range;
+use swarm::parameters::{GREATEST, Range};
 
 /// What is asked of the numbers in a field.
 #[derive(Clone, Copy, Debug)]
@@ -158,11 +158,16 @@ impl Desk {
             self.kind(node, rule, "a number");
             return None;
         };
-        if rule.range.holds(number) {
-            return Some(number);
+        match rule.range.admits(number) {
+            Ok(()) => Some(number),
+            Err(expected) => self.outside(node, rule, expected),
         }
-        let what = format!("{} must be {}, found {number}", quoted(rule.name), rule.range);
-        self.problem(&node.span, what, format!("expected {}", rule.range), "");
+    }
+    fn outside<T>(&mut self, node: &Node, rule: &Rule<'_>, expected: String) -> Option<T> {
+        let found = node.tree.number().unwrap_or(f64::NAN);
+        let found = if found.abs() > GREATEST { format!("{found:e}") } else { found.to_string() };
+        let what = format!("{} must be {expected}, found {found}", quoted(rule.name));
+        self.problem(&node.span, what, format!("expected {expected}"), "");
         None
     }
     /// A whole number in its range.
@@ -171,7 +176,11 @@ impl Desk {
             self.kind(node, rule, "a whole number");
             return None;
         };
-        self.number(node, rule).map(|_| number)
+        // a seed may be larger than anything that is computed with
+        if rule.range.holds(number as f64) {
+            return Some(number);
+        }
+        self.outside(node, rule, rule.range.to_string())
     }
 }
 

@@ -69,6 +69,8 @@ impl Tree {
     /// What kind of value it is, in words.
     pub fn describe(&self) -> String {
         match self {
+            // not hundreds of digits
+            Self::Number(number) if number.abs() > 1e15 && number.is_finite() => format!("{number:e}"),
             Self::Number(number) => number.to_string(),
             Self::Whole(number) => number.to_string(),
             Self::Truth(truth) => truth.to_string(),

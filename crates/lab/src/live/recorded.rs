@@ -31,6 +31,8 @@ pub struct Recorded {
     past: Option<Box<dyn Past>>,
     /// The scene's parts that the plan tells.
     scene: Json,
+    /// The obstacles at a time, as the message `obstacles`.
+    obstacles_at: Box<dyn Fn(f64) -> Json + Send>,
     metrics: Json,
 }
 
@@ -68,7 +70,8 @@ impl Recorded {
                 ColumnKind::Label(names) => Some((trajectory.column(column.name)?, column.name, names)),
                 ColumnKind::Quantity | ColumnKind::Count => None,
             });
-        let scene = scene(scenario, seed, &schedule, frames, label.map(|(_, column, names)| (column, names)))?;
+        let (scene, obstacles_at) =
+            scene(scenario, seed, &schedule, frames, label.map(|(_, column, names)| (column, names)))?;
         let metrics = all_metrics(&Table::open(&folder.join(METRICS))?, scenario)?;
         let mut recorded = Self {
             folder: folder.to_owned(),
@@ -84,6 +87,7 @@ impl Recorded {
             label,
             past: None,
             scene,
+            obstacles_at,
             metrics,
         };
         recorded.load()?;
@@ -118,15 +122,15 @@ impl Recorded {
     }
 }
 
-/// The message `scene` of a run.
+/// The message `scene` of a run, and what makes its messages `obstacles`.
 fn scene(
     scenario: &crate::scenario::Scenario,
     seed: u64,
     schedule: &Schedule,
     frames: u64,
     label: Option<(&str, &[&str])>,
-) -> Result<Json, LiveError> {
-    let (space, groups) = with_types!(scenario, R, D => {
+) -> Result<(Json, Box<dyn Fn(f64) -> Json + Send>), LiveError> {
+    let (space, groups, obstacles_at) = with_types!(scenario, R, D => {
         let world = build::world::<R, D>(scenario, seed, 1).map_err(LiveError::Request)?;
         let frame = world.frame();
         let places = (0..frame.columns.len())
@@ -138,10 +142,12 @@ fn scene(
                 "first": range.first, "count": range.count, "radius": space::Real::to_f64(group.radius()),
             })
         }).collect();
-        (space_json(frame.space, places), groups)
+        let list = world.obstacles().clone();
+        let at: Box<dyn Fn(f64) -> Json + Send> = Box::new(move |time| obstacles(&list, time));
+        (space_json(frame.space, places), groups, at)
     });
     let labels: Vec<Json> = label.iter().map(|(column, names)| json!({ "column": column, "names": names })).collect();
-    Ok(json!({
+    let scene = json!({
         "is": "scene",
         "kind": "run",
         "title": scenario.title,
@@ -160,7 +166,8 @@ fn scene(
         "metrics": metrics_json(scenario),
         "controls": [],
         "events": [],
-    }))
+    });
+    Ok((scene, obstacles_at))
 }
 
 /// The message `metrics_all` of a run.
@@ -200,15 +207,7 @@ impl Shown for Recorded {
         self.scene.clone()
     }
     fn obstacles(&self) -> Json {
-        with_types!(self.read.scenario, R, D => {
-            match build::plan::<R, D>(&self.read.scenario, self.seed, 1) {
-                Ok(plan) => match space::obstacles::Obstacles::new(plan.obstacles, plan.space.periods(), <R as space::Real>::TINY) {
-                    Ok(list) => obstacles(&list, self.time()),
-                    Err(_) => json!({ "is": "obstacles", "list": [] }),
-                },
-                Err(_) => json!({ "is": "obstacles", "list": [] }),
-            }
-        })
+        (self.obstacles_at)(self.time())
     }
     fn items(&self) -> Option<Json> {
         None

@@ -8,6 +8,7 @@ use crate::store::folder::{self, Folder};
 use crate::store::log::{Log, Record};
 use crate::store::{StoreError, table};
 use crate::with_types;
+use bytes::Bytes;
 use recorder::{Message, Recorder};
 use serde_json::{Value as Json, json};
 use std::io::Write;
@@ -39,12 +40,17 @@ pub(crate) mod kind {
     pub(crate) const KEYFRAME: u32 = 4;
     /// Ends the run.
     pub(crate) const DONE: u32 = 5;
+    /// A full state within a block.
+    pub(crate) const STATE: u32 = 6;
 }
 
-/// Updates of agents between two full states: what a processor does in about 100 ms.
+/// Updates of agents between two full states: what a slow law makes in about 50 ms, so that any moment of a run is computed
+/// again in less than 100 ms.
+pub(crate) const STATE_UPDATES: u64 = 50_000;
+/// Least steps between them: a full state costs about as much to keep as a step of a large swarm to make.
+const STATE_STEPS: u64 = 20;
+/// Updates of agents in a block.
 const BLOCK_UPDATES: u64 = 200_000;
-/// Least steps in a block: a full state costs about as much to keep as a step of a large swarm to make.
-const BLOCK_STEPS: u64 = 20;
 /// About so many bytes an agent has in a full state.
 const STATE_BYTES: u64 = 64;
 /// Bytes of full states that a long run may write: it has fewer then, and may lose more when it is stopped.
@@ -126,6 +132,15 @@ fn identity(request: &Request) -> Json {
     json!({ "scenario": crate::file::Form::write(&file).json(), "quick": request.quick })
 }
 
+/// The program that began an unfinished run, where it is not the very one that runs now. A compiler, a flag or a changed line
+/// may change the last bits of a number, and a run is the work of one program from its start to its end.
+fn other_build(manifest: &Json) -> Option<String> {
+    let last = manifest.get("sessions")?.as_array()?.last()?;
+    let unfinished = manifest.get("status") != Some(&json!("complete"));
+    (unfinished && last.get("build") != Some(&json!(build_id())))
+        .then(|| last.get("program").and_then(Json::as_str).unwrap_or("unknown").to_owned())
+}
+
 /// The folder of a request, and what is there already.
 fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), StoreError> {
     let seed = request.seed.or(request.read.scenario.seed);
@@ -137,6 +152,19 @@ fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), 
     };
     if let Some(out) = &request.out {
         let manifest = folder::manifest(out)?;
+        if manifest.as_ref().is_some_and(|manifest| manifest.get("identity").is_none()) {
+            return Err(StoreError::Damaged(format!(
+                "`{}` does not say what was run; choose another folder with --out",
+                out.join(folder::MANIFEST).display()
+            )));
+        }
+        if let Some(program) = manifest.as_ref().filter(|manifest| same(manifest)).and_then(other_build) {
+            return Err(StoreError::Refused(format!(
+                "the unfinished run in `{}` was begun by another build of the program ({program}), whose numbers may \
+                 differ in their last bits; finish it with that one, or choose another folder with --out",
+                out.display()
+            )));
+        }
         if let Some(manifest) = manifest.as_ref().filter(|manifest| !same(manifest)) {
             let empty = Json::Null;
             let mut lines = folder::differences(manifest.get("identity").unwrap_or(&empty), identity);
@@ -167,9 +195,10 @@ fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), 
         if !path.exists() {
             return Ok((path, None));
         }
-        // a damaged or foreign folder is somebody's: the next number is free
+        // a damaged or foreign folder is somebody's, and what another build began stays as it is: the next number is free
         if let Ok(Some(manifest)) = folder::manifest(&path)
             && same(&manifest)
+            && other_build(&manifest).is_none()
         {
             return Ok((path, Some(manifest)));
         }
@@ -178,7 +207,7 @@ fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), 
 }
 
 /// Threads that pay for so many agents.
-fn threads_for(agents: usize) -> usize {
+pub(crate) fn threads_for(agents: usize) -> usize {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     (agents / 2000).clamp(1, cores)
 }
@@ -220,7 +249,7 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     let executed = with_types!(request.read.scenario, R, D => {
         execute::<R, D>(request, &folder, seed, threads, &schedule, watch)
     });
-    let (from, reached) = match executed {
+    let Reached { from, to: reached, log, records } = match executed {
         Ok(reached) => reached,
         Err(error) => {
             manifest["status"] = json!("stopped");
@@ -245,7 +274,7 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
         folder.write_manifest(&manifest)?;
         return Ok(outcome(End::Stopped(reached), updates, seconds));
     }
-    finish(&folder, request, seed)?;
+    finish(&folder, request, seed, log, &records)?;
     folder.write_manifest(&manifest)?;
     let growing = folder.file(GROWING);
     std::fs::remove_file(&growing).map_err(|error| StoreError::io("remove", &growing, error))?;
@@ -290,15 +319,28 @@ fn build_id() -> String {
     format!("{:016x}", twox_hash::XxHash64::oneshot(0, &bytes))
 }
 
-/// Steps between two full states. It follows from the scenario alone, so that a run that was stopped has them at the same
-/// steps.
-fn block_steps(agents: u64, schedule: &Schedule) -> u64 {
+/// Steps between two full states, and between two ends of blocks, which are at full states. They follow from the scenario
+/// alone, so that a run that was stopped has them at the same steps.
+fn spacing(agents: u64, schedule: &Schedule) -> (u64, u64) {
     let agents = agents.max(1);
-    let by_bytes = schedule.steps.saturating_mul(agents) / (GROWN_STATES / STATE_BYTES);
-    (BLOCK_UPDATES / agents).min(schedule.steps / 10).max(BLOCK_STEPS).max(by_bytes)
+    let by_bytes = schedule.steps.saturating_mul(agents).div_ceil(GROWN_STATES / STATE_BYTES);
+    let state = (STATE_UPDATES / agents).max(STATE_STEPS).max(by_bytes);
+    let block = (BLOCK_UPDATES / agents).min(schedule.steps / 10) / state;
+    (state, state * block.max(1))
 }
 
-/// Steps the world from where it is to the end, or to where it is stopped; where it began, and how far it came.
+/// How far a session came.
+struct Reached {
+    /// Steps that were made before it.
+    from: u64,
+    /// Steps that are made now.
+    to: u64,
+    /// The growing file and what it holds.
+    log: Log,
+    records: Vec<Record>,
+}
+
+/// Steps the world from where it is to the end, or to where it is stopped.
 fn execute<R: Scalar + Send + 'static, const D: usize>(
     request: &Request,
     folder: &Folder,
@@ -306,51 +348,47 @@ fn execute<R: Scalar + Send + 'static, const D: usize>(
     threads: usize,
     schedule: &Schedule,
     watch: &mut dyn Watch,
-) -> Result<(u64, u64), StoreError>
+) -> Result<Reached, StoreError>
 where
     Models: Catalogue<R, D>,
 {
     let scenario = &request.read.scenario;
     let mut world = build::world::<R, D>(scenario, seed, threads).map_err(StoreError::Refused)?;
     let growing = folder.file(GROWING);
-    let (mut log, mut from, mut carried) = (None, 0, recorder::Carried::new(world.groups().len()));
-    if growing.exists() {
-        let (mut old, records) = Log::open(&growing)?;
-        if records.last().is_some_and(|record| record.kind == kind::DONE) {
-            return Ok((schedule.steps, schedule.steps));
-        }
-        let last = records.iter().rev().find(|record| record.kind == kind::KEYFRAME).copied();
-        if let Some(record) = &last {
-            let bytes = old.read(record)?;
-            let (kept, state) = recorder::Carried::split(&bytes, world.groups().len())
-                .and_then(|(kept, state)| Some((kept, Checkpoint::from_bytes(state, &world.save())?)))
-                .ok_or_else(|| {
-                    StoreError::Damaged(format!(
-                        "a state in `{}` does not fit; remove the folder to run anew",
-                        growing.display()
-                    ))
-                })?;
-            world.restore(&state).map_err(|error| StoreError::Damaged(error.to_string()))?;
-            carried = kept;
-            from = state.step();
-        }
-        old.keep_until(last.as_ref())?;
-        log = Some(old);
+    let (mut log, mut records) =
+        if growing.exists() { Log::open(&growing)? } else { (Log::create(&growing)?, Vec::new()) };
+    let (mut from, mut carried) = (0, recorder::Carried::new(world.groups().len()));
+    if records.last().is_some_and(|record| record.kind == kind::DONE) {
+        return Ok(Reached { from: schedule.steps, to: schedule.steps, log, records });
     }
-    let log = match log {
-        Some(log) => log,
-        None => Log::create(&growing)?,
-    };
+    let whole = records.iter().rposition(|record| record.kind == kind::KEYFRAME).map_or(0, |last| last + 1);
+    records.truncate(whole);
+    if let Some(record) = records.last() {
+        let bytes = log.read(record)?;
+        let (kept, state) = recorder::Carried::split(&bytes, world.groups().len())
+            .and_then(|(kept, state)| Some((kept, Checkpoint::from_bytes(state, &world.save())?)))
+            .ok_or_else(|| {
+                StoreError::Damaged(format!(
+                    "a state in `{}` does not fit; remove the folder to run anew",
+                    growing.display()
+                ))
+            })?;
+        world.restore(&state).map_err(|error| StoreError::Damaged(error.to_string()))?;
+        carried = kept;
+        from = state.step();
+    }
+    log.keep_until(records.last())?;
     watch.begin(folder.path(), seed, from, schedule.steps);
     let agents = world.frame().columns.len() as u64;
-    let block = block_steps(agents, schedule);
+    let (state, block) = spacing(agents, schedule);
     let metrics = crate::scenario::metrics_of::<D>(scenario).map_err(|wrong| StoreError::Refused(wrong.what))?;
-    let recorder = Recorder::start(&world, scenario, metrics, log);
+    let recorder = Recorder::start(&world, scenario, metrics, log, records)?;
     let mut observer = recorder::Observer::new(&world, carried, schedule.step);
     let sent = 'steps: loop {
         let step = world.step_number();
-        if step > from && step.is_multiple_of(block) {
-            let state = Message::Keyframe(observer.carried.clone(), Box::new(world.save()));
+        if step > from && step.is_multiple_of(state) {
+            let ends = step.is_multiple_of(block);
+            let state = Message::State { ends, carried: observer.carried.clone(), state: Box::new(world.save()) };
             if !recorder.send(state) {
                 break 'steps false;
             }
@@ -382,13 +420,12 @@ where
         written?;
         return Err(StoreError::Damaged("the recorder ended before the run".into()));
     }
-    written?;
-    Ok((from, world.step_number()))
+    let (log, records) = written?;
+    Ok(Reached { from, to: world.step_number(), log, records })
 }
 
 /// Makes the tables and the page of a run whose growing file is complete.
-fn finish(folder: &Folder, request: &Request, seed: u64) -> Result<(), StoreError> {
-    let (mut log, records) = Log::open(&folder.file(GROWING))?;
+fn finish(folder: &Folder, request: &Request, seed: u64, mut log: Log, records: &[Record]) -> Result<(), StoreError> {
     let scenario = &request.read.scenario;
     let (frames, metrics, events) = with_types!(scenario, R, D => {
         let world = build::world::<R, D>(scenario, seed, 1).map_err(StoreError::Refused)?;
@@ -408,11 +445,12 @@ fn finish(folder: &Folder, request: &Request, seed: u64) -> Result<(), StoreErro
         }
         let of_kind: Vec<&Record> = records.iter().filter(|record| record.kind == kind).collect();
         folder.write(name, |out| {
-            let blocks = of_kind.iter().map(|record| log.read(record));
+            let blocks = of_kind.iter().map(|record| log.read(record).map(Bytes::from));
             table::join(out, &headings, &notes, blocks).map(|_| ())
         })?;
     }
-    let states: Vec<&Record> = records.iter().filter(|record| record.kind == kind::KEYFRAME).collect();
+    let full = |record: &&Record| record.kind == kind::KEYFRAME || record.kind == kind::STATE;
+    let states: Vec<&Record> = records.iter().filter(full).collect();
     let bytes: u64 = states.iter().map(|record| record.length).sum();
     let every = (bytes.div_ceil(KEPT_STATES) as usize).next_power_of_two();
     let part = folder.file(&format!("{KEYFRAMES}.part"));
@@ -441,4 +479,70 @@ fn notes(request: &Request, seed: u64) -> Vec<(String, String)> {
         ("flockworks.file".into(), request.read.sources.text(0).to_owned()),
         ("flockworks.set".into(), sets(request).join("\n")),
     ]
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_moment_is_near_a_full_state_and_blocks_end_at_full_states() {
+        for agents in [0, 1, 7, 90, 200, 999, 5_000, 100_000, 2_000_000] {
+            for steps in [1, 30, 600, 6_000, 100_000] {
+                let schedule = Schedule { step: 0.1, steps, record: 1, record_from: 0, measure: 1 };
+                let (state, block) = spacing(agents, &schedule);
+                assert!(block.is_multiple_of(state) && state >= STATE_STEPS);
+                let updates = state * agents;
+                let few = updates <= STATE_UPDATES || state == STATE_STEPS;
+                let states = steps / state * agents.max(1) * STATE_BYTES;
+                // fewer only where they would fill the disk
+                assert!(few || states > GROWN_STATES / 4, "{agents} agents, {steps} steps: {state}");
+                assert!(states <= GROWN_STATES || steps < state, "{agents} agents, {steps} steps: {state}");
+            }
+        }
+    }
+
+    /// Stops after so many steps.
+    struct Until(u64, u64);
+    impl Watch for Until {
+        fn begin(&mut self, _: &Path, _: u64, _: u64, _: u64) {}
+        fn at(&mut self, step: u64) {
+            self.1 = step;
+        }
+        fn stop(&self) -> bool {
+            self.1 >= self.0
+        }
+    }
+
+    #[test]
+    fn what_another_build_began_is_not_continued() {
+        let text = r#"
+kind = "scenario"
+title = "Two"
+time = { duration = 100 }
+space = { dimensions = 2, edges = "open" }
+group.two = { count = 2, model = { vicsek_1995 = {} }, start = { place = { ball = { centre = [0, 0], radius = 1 } } } }
+"#;
+        let read =
+            build::read("two.toml", text, &[]).unwrap_or_else(|problems| unreachable!("{}", problems.show(false)));
+        let out = std::env::temp_dir().join(format!("flockworks-build-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&out);
+        let request = Request {
+            read,
+            seed: Some(1),
+            quick: false,
+            threads: Some(1),
+            out: Some(out.clone()),
+            program: "test 1".into(),
+        };
+        assert_eq!(run(&request, &mut Until(50, 0)).unwrap().end, End::Stopped(50));
+        let manifest = std::fs::read_to_string(out.join(folder::MANIFEST)).unwrap();
+        std::fs::write(out.join(folder::MANIFEST), manifest.replace(&build_id(), "0123456789abcdef")).unwrap();
+        let refused = run(&request, &mut Until(1000, 0)).unwrap_err().to_string();
+        assert!(refused.contains("another build of the program (test 1)"), "{refused}");
+        std::fs::write(out.join(folder::MANIFEST), &manifest).unwrap();
+        assert_eq!(run(&request, &mut Until(1000, 0)).unwrap().end, End::Complete);
+        std::fs::remove_dir_all(&out).unwrap();
+    }
 }

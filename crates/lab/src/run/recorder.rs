@@ -4,11 +4,12 @@
 //! changes the world, so that recording cannot change a result.
 
 use super::kind;
-use super::tables::{CONTACTS, Tables, Words};
+use super::tables::{CONTACTS, DETECTIONS, Tables, Words};
 use crate::scenario::Scenario;
 use crate::store::StoreError;
-use crate::store::log::Log;
-use crate::store::table::{self, Heading, Values};
+use crate::store::log::{Log, Record};
+use crate::store::table::{self, Blocks, Heading, Values};
+use bytes::Bytes;
 use measure::{Measure, Sample};
 use space::{Column, ColumnKind, Columns, Frame, GroupRange, Space};
 use std::sync::Arc;
@@ -38,15 +39,28 @@ pub(super) enum Message<R, const D: usize> {
         time: f64,
         /// Number of the kept frame.
         frame: Option<u64>,
-        /// Contacts of each group since the measurement before, where it is measured.
-        measured: Option<Vec<[u64; 3]>>,
+        /// What was counted since the measurement before, where it is measured.
+        measured: Option<Counted>,
     },
     /// What happened in a step.
     Events(Vec<Event>),
-    /// The full state, and what is carried beside it: the block before it is complete.
-    Keyframe(Carried, Box<Checkpoint<R, D>>),
+    /// The full state, and what is carried beside it.
+    State {
+        /// Whether the block before it is complete.
+        ends: bool,
+        carried: Carried,
+        state: Box<Checkpoint<R, D>>,
+    },
     /// The run is complete.
     Done,
+}
+
+/// What was counted between two measurements.
+pub(super) struct Counted {
+    /// Contacts of each group.
+    contacts: Vec<[u64; 3]>,
+    /// What scanners detected, rightly and wrongly.
+    detections: [u64; DETECTIONS.len()],
 }
 
 /// Counts that are carried from one step to the next, and over a stop.
@@ -54,22 +68,31 @@ pub(super) enum Message<R, const D: usize> {
 pub(crate) struct Carried {
     /// Contacts of each group since the last measurement.
     contacts: Vec<[u64; 3]>,
+    /// Detections from the start to the last measurement.
+    detections: [u64; DETECTIONS.len()],
+}
+
+/// Detections of all scanners since the start, in the order of [`DETECTIONS`].
+fn detections<R: Scalar, const D: usize>(world: &World<R, D>) -> [u64; DETECTIONS.len()] {
+    let count = world.detection_errors();
+    [count.members_in_view, count.members_missed, count.detections, count.false_detections]
 }
 
 impl Carried {
     pub(super) fn new(groups: usize) -> Self {
-        Self { contacts: vec![[0; 3]; groups] }
+        Self { contacts: vec![[0; 3]; groups], detections: [0; DETECTIONS.len()] }
     }
     fn to_bytes(&self) -> Vec<u8> {
-        self.contacts.iter().flatten().flat_map(|count| count.to_le_bytes()).collect()
+        self.contacts.iter().flatten().chain(&self.detections).flat_map(|count| count.to_le_bytes()).collect()
     }
     /// What [`Self::to_bytes`] wrote before other bytes, and those.
     pub(crate) fn split(bytes: &[u8], groups: usize) -> Option<(Self, &[u8])> {
-        let (own, rest) = bytes.split_at_checked(groups * 3 * 8)?;
+        let (own, rest) = bytes.split_at_checked((groups * 3 + DETECTIONS.len()) * 8)?;
         let counts: Vec<u64> =
             own.chunks_exact(8).map(|word| u64::from_le_bytes(core::array::from_fn(|k| word[k]))).collect();
-        let contacts = counts.chunks_exact(3).map(|three| core::array::from_fn(|k| three[k])).collect();
-        Some((Self { contacts }, rest))
+        let (contacts, detections) = counts.split_at(groups * 3);
+        let contacts = contacts.chunks_exact(3).map(|three| core::array::from_fn(|k| three[k])).collect();
+        Some((Self { contacts, detections: core::array::from_fn(|k| detections[k]) }, rest))
     }
 }
 
@@ -102,14 +125,20 @@ impl Observer {
         measured: bool,
     ) -> Message<R, D> {
         let view = world.frame();
-        let groups = self.carried.contacts.len();
         Message::Sample {
             columns: Box::new(view.columns.clone()),
             step: view.step,
             time: self.step * view.step as f64,
             frame,
-            measured: measured.then(|| std::mem::replace(&mut self.carried, Carried::new(groups)).contacts),
+            measured: measured.then(|| self.counted(world)),
         }
+    }
+    /// What was counted since the last time this was asked.
+    fn counted<R: Scalar, const D: usize>(&mut self, world: &World<R, D>) -> Counted {
+        let now = Carried { detections: detections(world), ..Carried::new(self.carried.contacts.len()) };
+        let before = std::mem::replace(&mut self.carried, now);
+        let since = |k: usize| self.carried.detections[k].saturating_sub(before.detections[k]);
+        Counted { contacts: before.contacts, detections: core::array::from_fn(since) }
     }
     /// Counts and notes what happened in the step just made; events, if there were any.
     pub(super) fn observe<R: Scalar, const D: usize>(&mut self, world: &World<R, D>) -> Option<Vec<Event>> {
@@ -165,12 +194,21 @@ fn alive<R: Scalar, const D: usize>(world: &World<R, D>) -> Vec<bool> {
 /// The recorder's thread.
 pub(super) struct Recorder<R, const D: usize> {
     to: SyncSender<Message<R, D>>,
-    thread: JoinHandle<Result<(), StoreError>>,
+    thread: JoinHandle<Result<(Log, Vec<Record>), StoreError>>,
 }
 
 impl<R: Scalar + Send + 'static, const D: usize> Recorder<R, D> {
-    /// Starts the recorder of a world.
-    pub(super) fn start(world: &World<R, D>, scenario: &Scenario, metrics: Vec<Box<dyn Measure<D>>>, log: Log) -> Self
+    /// Starts the recorder of a world, which appends to a log with these records.
+    ///
+    /// # Errors
+    /// Where there can be no such tables.
+    pub(super) fn start(
+        world: &World<R, D>,
+        scenario: &Scenario,
+        metrics: Vec<Box<dyn Measure<D>>>,
+        log: Log,
+        records: Vec<Record>,
+    ) -> Result<Self, StoreError>
     where
         Models: Catalogue<R, D>,
     {
@@ -182,9 +220,9 @@ impl<R: Scalar + Send + 'static, const D: usize> Recorder<R, D> {
             .map(|group| (0..frame.declared.len()).map(|column| group.declares(column)).collect())
             .collect();
         let keeper = Keeper {
-            frames: Rows::new(&tables.frames),
-            metrics: Rows::new(&tables.metrics),
-            events: Rows::new(&tables.events),
+            frames: Rows::new(&tables.frames)?,
+            metrics: Rows::new(&tables.metrics)?,
+            events: Rows::new(&tables.events)?,
             tables,
             space: *frame.space,
             groups: frame.groups.to_vec(),
@@ -194,17 +232,18 @@ impl<R: Scalar + Send + 'static, const D: usize> Recorder<R, D> {
             mortality: world.mortality(),
             measures: metrics,
             log,
+            records,
         };
         let (to, from) = sync_channel(WAITING);
         let thread = std::thread::spawn(move || keeper.keep(&from));
-        Self { to, thread }
+        Ok(Self { to, thread })
     }
     /// Hands something on; false where the recorder has ended, which [`Self::finish`] explains.
     pub(super) fn send(&self, message: Message<R, D>) -> bool {
         self.to.send(message).is_ok()
     }
-    /// Waits until all is written.
-    pub(super) fn finish(self) -> Result<(), StoreError> {
+    /// Waits until all is written; the log and its records.
+    pub(super) fn finish(self) -> Result<(Log, Vec<Record>), StoreError> {
         drop(self.to);
         self.thread.join().unwrap_or_else(|_| Err(StoreError::Damaged("the recorder failed".into())))
     }
@@ -214,12 +253,13 @@ impl<R: Scalar + Send + 'static, const D: usize> Recorder<R, D> {
 struct Rows {
     columns: Vec<Values>,
     kinds: Vec<table::Kind>,
+    blocks: Blocks,
 }
 
 impl Rows {
-    fn new(headings: &[Heading]) -> Self {
+    fn new(headings: &[Heading]) -> Result<Self, StoreError> {
         let kinds: Vec<table::Kind> = headings.iter().map(|heading| heading.kind).collect();
-        Self { columns: Self::empty(&kinds), kinds }
+        Ok(Self { columns: Self::empty(&kinds), kinds, blocks: Blocks::new(headings)? })
     }
     fn empty(kinds: &[table::Kind]) -> Vec<Values> {
         let empty = |kind: &table::Kind| match kind {
@@ -232,12 +272,12 @@ impl Rows {
         kinds.iter().map(empty).collect()
     }
     /// The block of what waited, and nothing waits any more; none where nothing did.
-    fn take(&mut self, headings: &[Heading]) -> Result<Option<Vec<u8>>, StoreError> {
+    fn take(&mut self) -> Result<Option<Bytes>, StoreError> {
         if self.columns.first().is_none_or(Values::is_empty) {
             return Ok(None);
         }
         let columns = std::mem::replace(&mut self.columns, Self::empty(&self.kinds));
-        table::block(headings, &columns).map(Some)
+        self.blocks.next(columns).map(Some)
     }
     fn number(&mut self, column: usize, value: f64) {
         match &mut self.columns[column] {
@@ -281,22 +321,33 @@ struct Keeper<R, const D: usize> {
     mortality: Option<usize>,
     measures: Vec<Box<dyn Measure<D>>>,
     log: Log,
+    /// The records in the log.
+    records: Vec<Record>,
+}
+
+/// Appends the numbers of a column in the order of the given rows.
+fn gather<R: Scalar>(to: &mut Values, column: &[R], rows: &[usize]) {
+    match to {
+        Values::Single(to) => to.extend(rows.iter().map(|&row| column[row].to_f64() as f32)),
+        Values::Double(to) => to.extend(rows.iter().map(|&row| column[row].to_f64())),
+        Values::Long(_) | Values::Whole(_) | Values::Word(..) => {}
+    }
 }
 
 impl<R: Scalar, const D: usize> Keeper<R, D> {
-    fn keep(mut self, from: &Receiver<Message<R, D>>) -> Result<(), StoreError> {
+    fn keep(mut self, from: &Receiver<Message<R, D>>) -> Result<(Log, Vec<Record>), StoreError> {
         while let Ok(message) = from.recv() {
             match message {
                 Message::Sample { columns, step, time, frame, measured } => {
+                    let rows = columns.rows_by_id();
                     if let Some(number) = frame {
-                        self.keep_frame(&columns, number, time);
+                        self.keep_frame(&columns, &rows, number, time);
                         if self.frames.columns[0].len() >= BLOCK_ROWS {
-                            let block = self.frames.take(&self.tables.frames)?;
-                            block.map(|block| self.log.append(kind::FRAMES, &block)).transpose()?;
+                            self.flush_frames()?;
                         }
                     }
-                    if let Some(contacts) = measured {
-                        self.measure(&columns, step, time, &contacts);
+                    if let Some(counted) = measured {
+                        self.measure(&columns, &rows, step, time, &counted);
                     }
                 }
                 Message::Events(events) => {
@@ -309,54 +360,44 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
                         self.events.whole(5, other);
                     }
                 }
-                Message::Keyframe(carried, state) => {
-                    self.flush()?;
+                Message::State { ends, carried, state } => {
+                    if ends {
+                        self.flush()?;
+                    }
                     let mut bytes = carried.to_bytes();
-                    bytes.extend(state.to_bytes());
-                    self.log.append(kind::KEYFRAME, &bytes)?;
+                    state.write(&mut bytes);
+                    self.append(if ends { kind::KEYFRAME } else { kind::STATE }, &bytes)?;
                 }
                 Message::Done => {
                     self.flush()?;
-                    self.log.append(kind::DONE, &[])?;
+                    self.append(kind::DONE, &[])?;
                 }
             }
         }
+        Ok((self.log, self.records))
+    }
+    fn append(&mut self, kind: u32, payload: &[u8]) -> Result<(), StoreError> {
+        self.records.push(self.log.append(kind, payload)?);
         Ok(())
     }
+    fn flush_frames(&mut self) -> Result<(), StoreError> {
+        match self.frames.take()? {
+            Some(block) => self.append(kind::FRAMES, &block),
+            None => Ok(()),
+        }
+    }
     fn flush(&mut self) -> Result<(), StoreError> {
-        let blocks = [
-            (kind::FRAMES, self.frames.take(&self.tables.frames)?),
-            (kind::METRICS, self.metrics.take(&self.tables.metrics)?),
-            (kind::EVENTS, self.events.take(&self.tables.events)?),
-        ];
-        for (kind, block) in blocks {
+        self.flush_frames()?;
+        for (kind, block) in [(kind::METRICS, self.metrics.take()?), (kind::EVENTS, self.events.take()?)] {
             if let Some(block) = block {
-                self.log.append(kind, &block)?;
+                self.append(kind, &block)?;
             }
         }
         Ok(())
     }
 
-    fn keep_frame(&mut self, columns: &Columns<R, D>, number: u64, time: f64) {
-        let agents = columns.len();
-        let mut rows = vec![0; agents];
-        (0..agents).for_each(|row| rows[columns.id[row] as usize] = row);
-        let wide = |values: &mut Values, column: &[R], there: &dyn Fn(usize) -> bool| match values {
-            Values::Single(to) => {
-                to.extend(
-                    rows.iter()
-                        .enumerate()
-                        .map(|(id, &row)| if there(id) { column[row].to_f64() as f32 } else { f32::NAN }),
-                );
-            }
-            Values::Double(to) => {
-                to.extend(
-                    rows.iter().enumerate().map(|(id, &row)| if there(id) { column[row].to_f64() } else { f64::NAN }),
-                );
-            }
-            Values::Long(_) | Values::Whole(_) | Values::Word(..) => {}
-        };
-        let always = |_: usize| true;
+    fn keep_frame(&mut self, columns: &Columns<R, D>, rows: &[usize], number: u64, time: f64) {
+        let agents = rows.len();
         let all = &mut self.frames.columns;
         if let Values::Whole(run) = &mut all[0] {
             run.resize(run.len() + agents, 0);
@@ -377,32 +418,35 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
             }
         }
         for a in 0..D {
-            wide(&mut all[5 + a], &columns.position[a], &always);
-            wide(&mut all[5 + D + a], &columns.velocity[a], &always);
+            gather(&mut all[5 + a], &columns.position[a], rows);
+            gather(&mut all[5 + D + a], &columns.velocity[a], rows);
         }
-        for c in 0..self.declared.len() {
-            let to = 5 + 2 * D + c;
-            let group = |id: usize| self.groups.partition_point(|range| range.first + range.count <= id as u32);
-            let there = |id: usize| self.declares[group(id)][c];
-            if let (Values::Word(values, words), Some(labels)) = (&mut all[to], &self.tables.words.labels[c]) {
-                *words = Arc::clone(labels);
-                let none = labels.len() as u16;
-                let word = |(id, &row): (usize, &usize)| {
-                    if there(id) { columns.state[c][row].to_f64().clamp(0.0, f64::from(none)) as u16 } else { none }
-                };
-                values.extend(rows.iter().enumerate().map(word));
-            } else {
-                wide(&mut all[to], &columns.state[c], &there);
+        for (c, labels) in self.tables.words.labels.iter().enumerate() {
+            let (to, from) = (&mut all[5 + 2 * D + c], &columns.state[c]);
+            for (g, range) in self.groups.iter().enumerate() {
+                let rows = &rows[range.first as usize..(range.first + range.count) as usize];
+                let declares = self.declares[g][c];
+                match (&mut *to, labels) {
+                    (Values::Word(values, words), Some(labels)) => {
+                        *words = Arc::clone(labels);
+                        let none = labels.len() as u16;
+                        let word = |&row: &usize| from[row].to_f64().clamp(0.0, f64::from(none)) as u16;
+                        values.extend(rows.iter().map(|row| if declares { word(row) } else { none }));
+                    }
+                    (to, _) if declares => gather(to, from, rows),
+                    (Values::Single(to), _) => to.resize(to.len() + rows.len(), f32::NAN),
+                    (Values::Double(to), _) => to.resize(to.len() + rows.len(), f64::NAN),
+                    (Values::Long(_) | Values::Whole(_) | Values::Word(..), _) => {}
+                }
             }
         }
     }
 
-    fn measure(&mut self, columns: &Columns<R, D>, step: u64, time: f64, contacts: &[[u64; 3]]) {
+    fn measure(&mut self, columns: &Columns<R, D>, by_id: &[usize], step: u64, time: f64, since: &Counted) {
         let frame = Frame { columns, declared: &self.declared, groups: &self.groups, space: &self.space, time, step };
         let lives = |row: &usize| self.mortality.is_none_or(|c| columns.state[c][*row] > R::ZERO);
         let whole = self.groups.len();
         // groups own consecutive ids
-        let by_id = frame.rows_by_id();
         let rows_of = |group: usize| -> Vec<usize> {
             let ids = match self.groups.get(group) {
                 Some(range) => range.first as usize..(range.first + range.count) as usize,
@@ -444,7 +488,7 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
                     to += 1;
                 }
             }
-            let Words { contacts: counted, refuses, .. } = self.tables.words;
+            let Words { contacts: counted, refuses, detections, .. } = self.tables.words;
             let of_part = |groups: &mut dyn Iterator<Item = (usize, &[u64; 3])>| {
                 let mut sum = [0; 3];
                 let mut refused = 0;
@@ -457,7 +501,7 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
                 (sum, refused)
             };
             let (sum, refused) =
-                of_part(&mut contacts.iter().enumerate().filter(|(group, _)| part == whole || part == *group));
+                of_part(&mut since.contacts.iter().enumerate().filter(|(group, _)| part == whole || part == *group));
             if counted {
                 for count in sum {
                     out.whole(to, count as i64);
@@ -466,6 +510,15 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
             }
             if refuses {
                 out.whole(to, refused as i64);
+                to += 1;
+            }
+            if detections {
+                // all scanners are counted together
+                let everyone = part + 1 == parts;
+                for count in since.detections {
+                    out.number(to, if everyone { count as f64 } else { f64::NAN });
+                    to += 1;
+                }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The columns of the tables that a run leaves: names, units, meanings.
 
-use crate::scenario::{Precision, Scenario};
+use crate::scenario::{Precision, Scenario, Sensing};
 use crate::store::table::{Heading, Kind};
 use measure::Measure;
 use space::{Column, ColumnKind};
@@ -32,6 +32,8 @@ pub(crate) struct Words {
     pub(crate) contacts: bool,
     /// Whether somebody's moves are refused.
     pub(crate) refuses: bool,
+    /// Whether somebody has a scanner, whose detections are counted.
+    pub(crate) detections: bool,
 }
 
 /// Names of the axes.
@@ -61,23 +63,22 @@ impl Tables {
         let mut frames = vec![
             Heading::new("run", "1", "Number of the run: 0.", Kind::Whole),
             Heading::new("frame", "1", "Number of the kept frame, from 0.", Kind::Long),
-            Heading::new("t", time, "Time since the start.", Kind::Double),
+            Heading::new("t", time, "Time since the start.", Kind::Double).always(),
             Heading::new("id", "1", "Number of the agent in the world, from 0.", Kind::Whole),
             Heading::new("group", "", "Name of its group.", Kind::Word),
         ];
         for axis in &AXES[..D] {
-            frames.push(Heading::new(axis, length, "Position.", real));
+            frames.push(Heading::new(axis, length, "Position.", real).always());
         }
         for axis in &AXES[..D] {
-            frames.push(Heading::new(&format!("v{axis}"), &speed, "Velocity.", real));
+            frames.push(Heading::new(&format!("v{axis}"), &speed, "Velocity.", real).always());
         }
-        for column in declared {
-            frames.push(Heading::new(
-                column.name,
-                &scenario.units.of(column.unit),
-                column.about,
-                kind_of(column, real),
-            ));
+        for (c, column) in declared.iter().enumerate() {
+            let unit = scenario.units.of(column.unit);
+            let heading = Heading::new(column.name, &unit, column.about, kind_of(column, real));
+            let everyone = world.groups().iter().all(|group| group.declares(c));
+            let quantity = matches!(column.kind, ColumnKind::Quantity);
+            frames.push(if everyone && quantity { heading.always() } else { heading });
         }
         let mut rows = vec![
             Heading::new("run", "1", "Number of the run: 0.", Kind::Whole),
@@ -116,6 +117,13 @@ impl Tables {
                 "Moves that were not made since the measurement before, since they would have ended in contact.";
             rows.push(Heading::new("refused_moves", "1", about, Kind::Long));
         }
+        let detections = scenario.group.0.iter().any(|(_, group)| matches!(group.sensing, Some(Sensing::Laser(_))));
+        if detections {
+            for (name, what) in DETECTIONS {
+                let about = format!("{what} since the measurement before, over all scanners; none for a single group.");
+                rows.push(Heading::new(name, "1", &about, Kind::Double));
+            }
+        }
         let mut groups: Vec<String> = scenario.group.0.iter().map(|(name, _)| name.clone()).collect();
         if groups.len() > 1 {
             groups.push(crate::scenario::build::WHOLE_GROUP.to_owned());
@@ -137,6 +145,7 @@ impl Tables {
                 events: Arc::new(EVENTS.map(str::to_owned).to_vec()),
                 contacts,
                 refuses,
+                detections,
             },
         }
     }
@@ -144,6 +153,14 @@ impl Tables {
 
 /// What is met, in the order in which contacts are counted.
 pub(crate) const CONTACTS: [&str; 3] = ["members", "obstacles", "walls"];
+
+/// What scanners detect, in the order in which it is counted: names of columns, and what they hold.
+pub(crate) const DETECTIONS: [(&str, &str); 4] = [
+    ("members_in_view", "Members in range and field of view of a scan"),
+    ("members_missed", "Members in view that nothing was detected of"),
+    ("detections", "Inputs that detection found among the readings"),
+    ("false_detections", "Inputs that belong to no member"),
+];
 
 fn kind_of(column: &Column, real: Kind) -> Kind {
     match column.kind {

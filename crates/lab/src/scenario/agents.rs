@@ -300,7 +300,11 @@ fn parameter(
         let drawn = Distribution::read(&entry.node, &rule, desk)?.checked(&entry.node.span, desk)?;
         return Some((descriptor.name.to_owned(), Given::Drawn(drawn)));
     }
-    let value = value_of(&entry.node.tree)?;
+    let Some(value) = value_of(&entry.node.tree) else {
+        let what = format!("`{key}` takes {}, found a table in it", descriptor.takes);
+        desk.problem(&entry.node.span, what, format!("expected {}", descriptor.takes), "");
+        return None;
+    };
     let asked = if in_radians(descriptor) { radians(value.clone()) } else { value.clone() };
     match (descriptor.check)(descriptor, &asked) {
         Ok(()) => Some((descriptor.name.to_owned(), Given::Value(value))),

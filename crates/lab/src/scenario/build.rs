@@ -112,6 +112,10 @@ pub fn read(name: &str, text: &str, sets: &[String]) -> Result<Read, Problems> {
     let scenario = read_kind(&tree, &mut desk)
         .and_then(|()| Scenario::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut desk));
     let Some(scenario) = scenario.filter(|_| desk.problems.is_empty()) else {
+        if desk.problems.is_empty() {
+            // nothing is refused without a word
+            desk.problem(&Span::default(), "the file could not be read", "something in it has no meaning", "");
+        }
         return Err(Problems::new(sources, desk.problems));
     };
     let wrongs = check(&scenario);
@@ -523,7 +527,7 @@ where
         first,
         count: group.count,
         body_radius,
-        initial_speed: prepared.initial_speed(),
+        initial_speeds: prepared.initial_speeds(),
     };
     let default = Start::default();
     let start =

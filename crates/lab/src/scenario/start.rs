@@ -164,8 +164,8 @@ pub(super) struct Surroundings<'a, R, const D: usize> {
     pub(super) first: u32,
     pub(super) count: usize,
     pub(super) body_radius: R,
-    /// Speed at which the model begins.
-    pub(super) initial_speed: R,
+    /// Speeds at which the model begins, for each member.
+    pub(super) initial_speeds: &'a [R],
 }
 
 impl Start {
@@ -298,12 +298,15 @@ impl Start {
             };
             return velocities.iter().enumerate().map(at).collect::<Result<_, _>>().map(Some);
         }
-        if self.speed.is_none() && self.heading == Heading::Random(Nothing) && around.initial_speed == R::ZERO {
+        if self.speed.is_none()
+            && self.heading == Heading::Random(Nothing)
+            && around.initial_speeds.iter().all(|&speed| speed == R::ZERO)
+        {
             // the model begins as it will: at rest, or with velocities of its own
             return Ok(None);
         }
         let speeds = match &self.speed {
-            None => vec![around.initial_speed; around.count],
+            None => around.initial_speeds.to_vec(),
             Some(speed) => {
                 let speeds = speed.values(around.count, around.seed, "speed", around.first).map_err(|found| {
                     Wrong::new("speed", format!("{found} speeds for {} members", around.count), "one for each member")

@@ -120,16 +120,15 @@ impl Log {
     /// # Errors
     /// Where the system refuses, or the record has changed.
     pub fn read(&mut self, record: &Record) -> Result<Vec<u8>, StoreError> {
-        let mut bytes = vec![0; HEAD + record.length as usize];
-        let read = |file: &mut File, bytes: &mut [u8]| {
-            file.seek(SeekFrom::Start(record.from - HEAD as u64))?;
-            file.read_exact(bytes)
-        };
-        read(&mut self.file, &mut bytes).map_err(|error| StoreError::io("read", &self.path, error))?;
-        let payload = bytes.split_off(HEAD);
         let mut head = [0; HEAD];
-        head.copy_from_slice(&bytes);
-        if split(&head) != (record.kind, record.length, checksum(record.kind, &payload)) {
+        let mut payload = Vec::with_capacity(record.length as usize);
+        let mut read = |file: &mut File, payload: &mut Vec<u8>| {
+            file.seek(SeekFrom::Start(record.from - HEAD as u64))?;
+            file.read_exact(&mut head)?;
+            file.take(record.length).read_to_end(payload)
+        };
+        read(&mut self.file, &mut payload).map_err(|error| StoreError::io("read", &self.path, error))?;
+        if split(&head) != (record.kind, payload.len() as u64, checksum(record.kind, &payload)) {
             return Err(StoreError::Damaged(format!("`{}` has changed while it was read", self.path.display())));
         }
         Ok(payload)

@@ -8,12 +8,12 @@ use bytes::Bytes;
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::column::reader::ColumnReader;
 use parquet::column::writer::ColumnCloseResult;
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type, Int64Type};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{KeyValue, RowGroupMetaData};
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use parquet::file::writer::SerializedFileWriter;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{ColumnPath, Type};
 use std::io::Write;
 use std::sync::Arc;
@@ -44,12 +44,19 @@ pub struct Heading {
     pub about: String,
     /// What it holds.
     pub kind: Kind,
+    /// Whether every row has a value; whole numbers always are there.
+    pub always: bool,
 }
 
 impl Heading {
-    /// A column.
+    /// A column; other than whole numbers, its values may be missing.
     pub fn new(name: &str, unit: &str, about: &str, kind: Kind) -> Self {
-        Self { name: name.to_owned(), unit: unit.to_owned(), about: about.to_owned(), kind }
+        let always = matches!(kind, Kind::Long | Kind::Whole);
+        Self { name: name.to_owned(), unit: unit.to_owned(), about: about.to_owned(), kind, always }
+    }
+    /// The same column with a value in every row.
+    pub fn always(self) -> Self {
+        Self { always: true, ..self }
     }
 }
 
@@ -77,6 +84,16 @@ impl Values {
             Self::Long(values) => values.len(),
             Self::Whole(values) => values.len(),
             Self::Word(values, _) => values.len(),
+        }
+    }
+    /// Bytes they take.
+    fn bytes(&self) -> usize {
+        match self {
+            Self::Double(values) => size_of_val(&values[..]),
+            Self::Single(values) => size_of_val(&values[..]),
+            Self::Long(values) => size_of_val(&values[..]),
+            Self::Whole(values) => size_of_val(&values[..]),
+            Self::Word(values, _) => size_of_val(&values[..]),
         }
     }
     /// Whether there are none.
@@ -128,10 +145,7 @@ fn schema(headings: &[Heading]) -> Result<Arc<Type>, ParquetError> {
             Kind::Word => Physical::BYTE_ARRAY,
         };
         // a missing number or word is null, which every reader knows
-        let repetition = match heading.kind {
-            Kind::Long | Kind::Whole => Repetition::REQUIRED,
-            Kind::Double | Kind::Single | Kind::Word => Repetition::OPTIONAL,
-        };
+        let repetition = if heading.always { Repetition::REQUIRED } else { Repetition::OPTIONAL };
         let logical = (heading.kind == Kind::Word).then_some(LogicalType::String);
         let built = Type::primitive_type_builder(&heading.name, physical)
             .with_repetition(repetition)
@@ -143,7 +157,22 @@ fn schema(headings: &[Heading]) -> Result<Arc<Type>, ParquetError> {
     Type::group_type_builder("table").with_fields(fields).build().map(Arc::new)
 }
 
-fn properties(headings: &[Heading], notes: &[(String, String)]) -> Result<WriterProperties, ParquetError> {
+/// Rows of one value, one after the other, from which on a column is kept as runs.
+const RUN: usize = 32;
+
+/// Whether equal values mostly follow each other.
+fn repeats<T: PartialEq>(values: &[T]) -> bool {
+    let most = values.len() / RUN;
+    values.windows(2).filter(|pair| pair[0] != pair[1]).take(most + 1).count() <= most
+}
+
+/// How columns are kept. Numbers that are always there and differ from row to row (positions, velocities) stand as they
+/// are: compressing them takes several times as long as all the rest and gains less than a fifth.
+fn properties(
+    headings: &[Heading],
+    columns: &[Values],
+    notes: &[(String, String)],
+) -> Result<WriterProperties, ParquetError> {
     let mut builder = WriterProperties::builder()
         .set_created_by("flockworks".into())
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(1)?))
@@ -152,9 +181,18 @@ fn properties(headings: &[Heading], notes: &[(String, String)]) -> Result<Writer
         .set_statistics_enabled(EnabledStatistics::None)
         .set_data_page_row_count_limit(usize::MAX)
         .set_data_page_size_limit(1 << 22);
-    for heading in headings {
+    for (k, heading) in headings.iter().enumerate() {
         let path = ColumnPath::new(vec![heading.name.clone()]);
+        let runs = match columns.get(k) {
+            Some(Values::Double(values)) => repeats(values),
+            Some(Values::Single(values)) => repeats(values),
+            _ => false,
+        };
         builder = match heading.kind {
+            Kind::Double | Kind::Single if heading.always && runs => builder.set_column_dictionary_enabled(path, true),
+            Kind::Double | Kind::Single if heading.always => {
+                builder.set_column_compression(path, Compression::UNCOMPRESSED)
+            }
             Kind::Double | Kind::Single => builder.set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT),
             Kind::Long | Kind::Whole => builder.set_column_encoding(path, Encoding::DELTA_BINARY_PACKED),
             Kind::Word => builder.set_column_dictionary_enabled(path, true),
@@ -169,61 +207,93 @@ fn properties(headings: &[Heading], notes: &[(String, String)]) -> Result<Writer
     Ok(builder.set_key_value_metadata(Some(meta)).build())
 }
 
-/// A block: the bytes of a Parquet file of one row group.
-///
-/// # Errors
-/// Where the columns are not of one length or of their kinds.
-pub fn block(headings: &[Heading], columns: &[Values]) -> Result<Vec<u8>, StoreError> {
-    let rows = columns.first().map_or(0, Values::len);
-    if headings.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {
-        return Err(StoreError::Damaged("the columns of a table differ in length".into()));
-    }
-    encode(headings, columns).map_err(|error| fault(&error))
+/// What makes the blocks of a table, one after the other. A column that is the same as in the block before (the numbers of
+/// the agents, the names of their groups) is taken from there, encoded as it is.
+pub struct Blocks {
+    headings: Vec<Heading>,
+    schema: Arc<Type>,
+    before: Option<(Vec<Values>, Bytes)>,
 }
 
-fn encode(headings: &[Heading], columns: &[Values]) -> Result<Vec<u8>, ParquetError> {
-    let properties = Arc::new(properties(headings, &[])?);
-    let mut writer = SerializedFileWriter::new(Vec::new(), schema(headings)?, properties)?;
-    let mut group = writer.next_row_group()?;
-    for values in columns {
-        let Some(mut column) = group.next_column()? else { break };
-        match values {
-            Values::Double(values) => {
-                let (there, levels) = present(values, |v| !v.is_nan());
-                column.typed::<DoubleType>().write_batch(&there, Some(&levels), None)?;
-            }
-            Values::Single(values) => {
-                let (there, levels) = present(values, |v| !v.is_nan());
-                column.typed::<FloatType>().write_batch(&there, Some(&levels), None)?;
-            }
-            Values::Long(values) => {
-                column.typed::<Int64Type>().write_batch(values, None, None)?;
-            }
-            Values::Whole(values) => {
-                column.typed::<Int32Type>().write_batch(values, None, None)?;
-            }
-            Values::Word(values, words) => {
-                let words: Vec<ByteArray> =
-                    words.iter().map(|word| ByteArray::from(word.as_bytes().to_vec())).collect();
-                let known = |k: &u16| words.get(usize::from(*k)).is_some_and(|word| !word.is_empty());
-                let (there, levels) = present(values, known);
-                let there: Vec<ByteArray> = there.iter().map(|&k| words[usize::from(k)].clone()).collect();
-                column.typed::<ByteArrayType>().write_batch(&there, Some(&levels), None)?;
-            }
+impl Blocks {
+    /// For blocks of a table with these columns.
+    ///
+    /// # Errors
+    /// Where there can be no such table.
+    pub fn new(headings: &[Heading]) -> Result<Self, StoreError> {
+        let schema = schema(headings).map_err(|error| fault(&error))?;
+        Ok(Self { headings: headings.to_vec(), schema, before: None })
+    }
+    /// The next block: the bytes of a Parquet file of one row group.
+    ///
+    /// # Errors
+    /// Where the columns are not of one length or of their kinds.
+    pub fn next(&mut self, columns: Vec<Values>) -> Result<Bytes, StoreError> {
+        let rows = columns.first().map_or(0, Values::len);
+        if self.headings.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {
+            return Err(StoreError::Damaged("the columns of a table differ in length".into()));
         }
-        column.close()?;
+        let block = Bytes::from(self.encode(&columns).map_err(|error| fault(&error))?);
+        self.before = Some((columns, block.clone()));
+        Ok(block)
     }
-    group.close()?;
-    writer.into_inner()
+    fn encode(&self, columns: &[Values]) -> Result<Vec<u8>, ParquetError> {
+        let properties = Arc::new(properties(&self.headings, columns, &[])?);
+        let raw: usize = columns.iter().map(Values::bytes).sum();
+        let out = Vec::with_capacity(raw + raw / 8 + (1 << 12));
+        let mut writer = SerializedFileWriter::new(out, Arc::clone(&self.schema), properties)?;
+        let mut group = writer.next_row_group()?;
+        let before = match &self.before {
+            Some((columns, block)) => Some((columns, block, SerializedFileReader::new(block.clone())?)),
+            None => None,
+        };
+        for (k, values) in columns.iter().enumerate() {
+            if let Some((columns, block, reader)) = &before
+                && columns[k] == *values
+            {
+                append(&mut group, block, reader.metadata().row_group(0), k)?;
+                continue;
+            }
+            let Some(mut column) = group.next_column()? else { break };
+            let always = self.headings[k].always;
+            match values {
+                Values::Double(values) => write::<DoubleType>(&mut column, values, always, |v| !v.is_nan())?,
+                Values::Single(values) => write::<FloatType>(&mut column, values, always, |v| !v.is_nan())?,
+                Values::Long(values) => write::<Int64Type>(&mut column, values, always, |_| true)?,
+                Values::Whole(values) => write::<Int32Type>(&mut column, values, always, |_| true)?,
+                Values::Word(values, words) => {
+                    let words: Vec<ByteArray> =
+                        words.iter().map(|word| ByteArray::from(word.as_bytes().to_vec())).collect();
+                    let nothing = ByteArray::from(Vec::new());
+                    let word = |k: &u16| words.get(usize::from(*k)).unwrap_or(&nothing).clone();
+                    let values: Vec<ByteArray> = values.iter().map(word).collect();
+                    write::<ByteArrayType>(&mut column, &values, always, |word| !word.is_empty())?;
+                }
+            }
+            column.close()?;
+        }
+        group.close()?;
+        writer.into_inner()
+    }
 }
 
-/// The values that are there, and for every value whether it is (1) or not (0).
-fn present<T: Copy>(values: &[T], there: impl Fn(&T) -> bool) -> (std::borrow::Cow<'_, [T]>, Vec<i16>) {
-    let levels: Vec<i16> = values.iter().map(|v| i16::from(there(v))).collect();
-    if levels.iter().all(|&level| level == 1) {
-        return (values.into(), levels);
+/// Writes values into a column, of which those that are not `there` are null unless all have to be there `always`.
+fn write<T: DataType>(
+    column: &mut SerializedColumnWriter<'_>,
+    values: &[T::T],
+    always: bool,
+    there: impl Fn(&T::T) -> bool,
+) -> Result<(), ParquetError> {
+    if always {
+        column.typed::<T>().write_batch(values, None, None)?;
+    } else if values.iter().all(&there) {
+        column.typed::<T>().write_batch(values, Some(&vec![1; values.len()]), None)?;
+    } else {
+        let levels: Vec<i16> = values.iter().map(|v| i16::from(there(v))).collect();
+        let values: Vec<T::T> = values.iter().filter(|v| there(v)).cloned().collect();
+        column.typed::<T>().write_batch(&values, Some(&levels), None)?;
     }
-    (values.iter().copied().filter(there).collect::<Vec<T>>().into(), levels)
+    Ok(())
 }
 
 /// Joins blocks into one file; `notes` go into its metadata.
@@ -234,15 +304,15 @@ pub fn join<W: Write + Send>(
     out: W,
     headings: &[Heading],
     notes: &[(String, String)],
-    blocks: impl Iterator<Item = Result<Vec<u8>, StoreError>>,
+    blocks: impl Iterator<Item = Result<Bytes, StoreError>>,
 ) -> Result<W, StoreError> {
     let begin = || {
-        let properties = Arc::new(properties(headings, notes)?);
+        let properties = Arc::new(properties(headings, &[], notes)?);
         SerializedFileWriter::new(out, schema(headings)?, properties)
     };
     let mut writer = begin().map_err(|error| fault(&error))?;
     for block in blocks {
-        splice(&mut writer, Bytes::from(block?)).map_err(written)?;
+        splice(&mut writer, &block?).map_err(written)?;
     }
     writer.into_inner().map_err(written)
 }
@@ -258,24 +328,35 @@ fn written(error: ParquetError) -> StoreError {
     }
 }
 
-fn splice<W: Write + Send>(writer: &mut SerializedFileWriter<W>, block: Bytes) -> Result<(), ParquetError> {
+fn splice<W: Write + Send>(writer: &mut SerializedFileWriter<W>, block: &Bytes) -> Result<(), ParquetError> {
     let reader = SerializedFileReader::new(block.clone())?;
     for group in reader.metadata().row_groups() {
         let mut to = writer.next_row_group()?;
-        for column in group.columns() {
-            let close = ColumnCloseResult {
-                bytes_written: u64::try_from(column.compressed_size()).unwrap_or(0),
-                rows_written: u64::try_from(group.num_rows()).unwrap_or(0),
-                metadata: column.clone(),
-                bloom_filter: None,
-                column_index: None,
-                offset_index: None,
-            };
-            to.append_column(&block, close)?;
+        for column in 0..group.num_columns() {
+            append(&mut to, block, group, column)?;
         }
         to.close()?;
     }
     Ok(())
+}
+
+/// Appends a column of a block as it is encoded there.
+fn append<W: Write + Send>(
+    to: &mut SerializedRowGroupWriter<'_, W>,
+    block: &Bytes,
+    group: &RowGroupMetaData,
+    column: usize,
+) -> Result<(), ParquetError> {
+    let column = group.column(column);
+    let close = ColumnCloseResult {
+        bytes_written: u64::try_from(column.compressed_size()).unwrap_or(0),
+        rows_written: u64::try_from(group.num_rows()).unwrap_or(0),
+        metadata: column.clone(),
+        bloom_filter: None,
+        column_index: None,
+        offset_index: None,
+    };
+    to.append_column(block, close)
 }
 
 /// A table that is read row group by row group.
@@ -312,7 +393,8 @@ impl Table {
                 .and_then(|text| serde_json::from_str(text).ok())
                 .unwrap_or_default();
             let word = |key: &str| note.get(key).and_then(|v| v.as_str()).unwrap_or("");
-            headings.push(Heading::new(column.name(), word("unit"), word("about"), kind));
+            let heading = Heading::new(column.name(), word("unit"), word("about"), kind);
+            headings.push(if column.max_def_level() == 0 { heading.always() } else { heading });
         }
         Ok(Self { reader, headings })
     }
@@ -388,9 +470,9 @@ impl Table {
     }
 }
 
-/// Values with a filling where the level says that there is none.
+/// Values with a filling where the level says that there is none; a column whose values are always there has no levels.
 fn spread<T: Copy>(values: Vec<T>, levels: &[i16], none: T) -> Vec<T> {
-    if values.len() == levels.len() {
+    if levels.is_empty() || values.len() == levels.len() {
         return values;
     }
     let mut values = values.into_iter();
@@ -407,8 +489,9 @@ mod tests {
             Heading::new("frame", "1", "Number of the frame.", Kind::Long),
             Heading::new("id", "1", "Number of the agent.", Kind::Whole),
             Heading::new("x", "m", "Position.", Kind::Double),
-            Heading::new("y", "m", "Position.", Kind::Single),
+            Heading::new("y", "m", "Position.", Kind::Single).always(),
             Heading::new("group", "", "Name of its group.", Kind::Word),
+            Heading::new("t", "s", "Time.", Kind::Double).always(),
         ]
     }
 
@@ -420,24 +503,32 @@ mod tests {
             Values::Double((0..rows).map(|k| if k % 3 == 1 { f64::NAN } else { 0.1 * k as f64 }).collect()),
             Values::Single((0..rows).map(|k| k as f32).collect()),
             Values::Word((0..rows).map(|k| (k % 3) as u16).collect(), words),
+            Values::Double((0..rows).map(|k| first as f64 + (k / 50) as f64).collect()),
         ]
     }
 
     #[test]
     fn blocks_joined_read_back() {
         let path = std::env::temp_dir().join(format!("flockworks-table-{}.parquet", std::process::id()));
-        let make = || {
-            let blocks = [(0, 5), (5, 1), (6, 700)].map(|(first, rows)| block(&headings(), &columns(first, rows)));
+        // as one goes on, or as one who begins anew with every block
+        let make = |anew: bool| {
+            let mut made = Blocks::new(&headings()).unwrap();
+            let blocks = [(0, 5), (5, 1), (6, 700), (7, 700), (7, 700)].map(|(first, rows)| {
+                if anew {
+                    made = Blocks::new(&headings()).unwrap();
+                }
+                made.next(columns(first, rows))
+            });
             let notes = [("note".to_owned(), "text".to_owned())];
             join(Vec::new(), &headings(), &notes, blocks.into_iter()).unwrap()
         };
-        let bytes = make();
-        assert_eq!(bytes, make(), "equal values give equal bytes");
+        let bytes = make(false);
+        assert_eq!(bytes, make(true), "equal values give equal bytes, whatever came before them");
         std::fs::write(&path, bytes).unwrap();
         let table = Table::open(&path).unwrap();
         assert_eq!(table.headings(), headings());
-        assert_eq!((table.groups(), table.rows()), (3, 706));
-        let read = table.read(2, &[0, 1, 2, 3, 4]).unwrap();
+        assert_eq!((table.groups(), table.rows()), (5, 2106));
+        let read = table.read(2, &[0, 1, 2, 3, 4, 5]).unwrap();
         let written = columns(6, 700);
         for (column, (read, written)) in read.iter().zip(&written).enumerate() {
             for row in 0..700 {
@@ -453,8 +544,8 @@ mod tests {
     fn what_does_not_fit_is_refused() {
         let mut uneven = columns(0, 3);
         uneven[2] = Values::Double(vec![1.0]);
-        assert!(block(&headings(), &uneven).is_err());
-        let damaged = [Ok(vec![1, 2, 3])];
+        assert!(Blocks::new(&headings()).unwrap().next(uneven).is_err());
+        let damaged = [Ok(Bytes::from(vec![1, 2, 3]))];
         assert!(join(Vec::new(), &headings(), &[], damaged.into_iter()).is_err());
     }
 }

@@ -11,7 +11,6 @@ use space::{Columns, Vector};
 const MARK: u64 = u64::from_le_bytes(*b"flkstat\x01");
 
 /// Numbers written one after the other, little end first, each as wide as it is.
-#[derive(Default)]
 struct Out(Vec<u8>);
 
 impl Out {
@@ -109,7 +108,14 @@ impl<R: Scalar, const D: usize> Checkpoint<R, D> {
     }
     /// The state as bytes.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut out = Out::default();
+        let mut bytes = Vec::new();
+        self.write(&mut bytes);
+        bytes
+    }
+    /// Appends the state as bytes.
+    pub fn write(&self, bytes: &mut Vec<u8>) {
+        let mut out = Out(core::mem::take(bytes));
+        out.0.reserve((4 + (2 * D + self.columns.state.len()) * size_of::<R>()) * (self.columns.len() + 16));
         out.word(MARK);
         out.word(size_of::<R>() as u64 * 16 + D as u64);
         out.word(self.step);
@@ -145,9 +151,9 @@ impl<R: Scalar, const D: usize> Checkpoint<R, D> {
             e.false_detections,
         ];
         counts.iter().for_each(|&count| out.word(count));
-        out.0
+        *bytes = out.0;
     }
-    /// The state that [`Self::to_bytes`] wrote. `like` is a state of a world of the same plan, which lends what does
+    /// The state that [`Self::write`] wrote. `like` is a state of a world of the same plan, which lends what does
     /// not change while running; `None` where the bytes are damaged or of another plan.
     pub fn from_bytes(bytes: &[u8], like: &Self) -> Option<Self> {
         let mut from = In(bytes);

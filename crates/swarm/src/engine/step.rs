@@ -2,10 +2,10 @@
 
 use crate::engine::kernel::{Scratch, Writer};
 use crate::engine::plan::{Clock, Driver, Order};
-use crate::engine::world::World;
+use crate::engine::world::{Group, World};
 use crate::motion::Motion;
 use crate::parameters::Scalar;
-use crate::physics::{Contact, Met};
+use crate::physics::Met;
 use space::lanes::{Lanes, Task, level, with_lanes};
 use space::random::{Purpose, uniform, uniforms};
 
@@ -20,6 +20,11 @@ impl<R: Scalar, const D: usize> World<R, D> {
             }
         }
         self.step += 1;
+    }
+    /// Time at which a step begins. It follows from the number of the step: a sum of many steps would come late.
+    pub(crate) fn time_at(&self, step: u64) -> f64 {
+        let (first, time) = self.origin;
+        time + self.step_time * step.saturating_sub(first) as f64
     }
     /// Makes several steps.
     pub fn run(&mut self, steps: u64) {
@@ -60,13 +65,15 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.clear = clear;
         self.close = close;
         self.scratch = scratch;
-        self.finish(self.dt, self.time + self.dt.to_f64());
+        self.finish(self.dt);
     }
 
     /// What follows everyone's motion: contacts, resources, the new index.
-    fn finish(&mut self, dt: R, time: f64) {
+    fn finish(&mut self, dt: R) {
+        let time = self.time_at(self.step + 1);
         if self.contacts {
             self.resolve_contacts();
+            self.tell_turned();
         }
         if let Some(mut resources) = self.resources.take() {
             resources.update(&self.space, &mut self.next, self.seed, self.step, time, dt);
@@ -75,6 +82,27 @@ impl<R: Scalar, const D: usize> World<R, D> {
         core::mem::swap(&mut self.now, &mut self.next);
         self.time = time;
         self.settle();
+    }
+
+    /// Tells the laws of bodies that a surface has turned round: what they keep of their own heading follows it.
+    fn tell_turned(&mut self) {
+        if !self.groups.iter().any(Group::turns) {
+            return;
+        }
+        let Some(mut scratch) = self.scratch.pop() else { return };
+        for row in 0..self.now.len() {
+            let id = self.now.id[row];
+            let group = &self.groups[self.group_of(id)];
+            if self.met[id as usize] != Met::Nothing && group.turns() {
+                let stages = group.kernel.stages();
+                stages.load(&self.next, row, &mut scratch);
+                group.kernel.performed(&mut scratch.own, self.next.velocity(row));
+                for (&c, &value) in stages.columns.iter().zip(&scratch.own) {
+                    self.next.state[c][row] = value;
+                }
+            }
+        }
+        self.scratch.push(scratch);
     }
 
     /// Who acts after whom in this step.
@@ -100,7 +128,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         }
         self.order = sequence;
         self.scratch.push(scratch);
-        self.time += self.dt.to_f64();
+        self.time = self.time_at(self.step + 1);
         self.note_collisions();
         if let Some(mut resources) = self.resources.take() {
             resources.update(&self.space, &mut self.now, self.seed, self.step, self.time, self.dt);
@@ -135,9 +163,16 @@ impl<R: Scalar, const D: usize> World<R, D> {
         if let Some(memory) = memory {
             self.memory[row] = memory;
         }
-        let (place, velocity) = if self.contacts { self.resolve_one(row, place, velocity) } else { (place, velocity) };
+        let (place, turned) = if self.contacts { self.resolve_one(row, place, velocity) } else { (place, velocity) };
+        let group = &self.groups[g];
+        if turned != velocity && group.turns() {
+            group.kernel.performed(&mut scratch.own, turned);
+            for (&c, &value) in group.kernel.stages().columns.iter().zip(&scratch.own) {
+                self.now.state[c][row] = value;
+            }
+        }
         self.now.set_position(row, place);
-        self.now.set_velocity(row, velocity);
+        self.now.set_velocity(row, turned);
         if let Some(live) = &mut self.live {
             live.follow(row, place);
         }
@@ -210,8 +245,14 @@ impl<R: Scalar, const D: usize> World<R, D> {
             let motion = Motion { velocity: command.velocity, displacement: command.displacement * step };
             let stages = self.groups[self.group_of(row as u32)].kernel.stages();
             let (place, velocity) = stages.perform(&self.view(), row, motion, step, &mut scratch.body);
-            let body_columns = &self.groups[self.group_of(row as u32)].kernel.stages().body_columns;
-            for (&c, &value) in body_columns.iter().zip(&scratch.body) {
+            let kernel = &self.groups[self.group_of(row as u32)].kernel;
+            if velocity != motion.velocity {
+                kernel.performed(&mut scratch.own, velocity);
+                for (&c, &value) in kernel.stages().columns.iter().zip(&scratch.own) {
+                    self.next.state[c][row] = value;
+                }
+            }
+            for (&c, &value) in kernel.stages().body_columns.iter().zip(&scratch.body) {
                 self.next.state[c][row] = value;
             }
             self.next.set_position(row, place);
@@ -219,8 +260,8 @@ impl<R: Scalar, const D: usize> World<R, D> {
         }
         self.scratch.push(scratch);
         self.clocks = clocks;
-        self.finish(step, self.time + tick);
-        if self.groups.iter().any(|g| g.contact == Contact::Reflect || g.contact == Contact::Clamp) {
+        self.finish(step);
+        if self.groups.iter().any(Group::turns) {
             // a reversed velocity is also the command from now on
             for id in 0..agents {
                 if self.met.get(id).is_some_and(|&met| met != Met::Nothing) {

@@ -90,6 +90,10 @@ pub struct World<R: Scalar, const D: usize> {
     pub(crate) seed: u64,
     pub(crate) step: u64,
     pub(crate) time: f64,
+    /// Length of a step (of a tick) as it was written: a time is a multiple of it, without the rounding of a long sum.
+    pub(crate) step_time: f64,
+    /// Step and time from which time is counted.
+    pub(crate) origin: (u64, f64),
     pub(crate) workers: Workers,
     pub(crate) scratch: Vec<Scratch<R, D>>,
     pub(crate) injected: Option<Injected>,
@@ -118,6 +122,10 @@ impl<R: Scalar, const D: usize> Group<R, D> {
     /// What happens to its bodies where the way is not free.
     pub fn contact(&self) -> Contact {
         self.contact
+    }
+    /// Whether a surface turns its bodies round.
+    pub(crate) fn turns(&self) -> bool {
+        matches!(self.contact, Contact::Reflect | Contact::Clamp)
     }
     /// Radius of its bodies.
     pub fn radius(&self) -> R {
@@ -313,6 +321,12 @@ where
             seed: plan.seed,
             step: plan.first_step,
             time: 0.0,
+            step_time: match plan.driver {
+                Driver::Asynchronous { tick, .. } => tick,
+                // in f32 the number that was meant is the shortest one that reads back to it
+                Driver::Synchronous | Driver::Sequential(_) => dt.to_string().parse().unwrap_or(dt.to_f64()),
+            },
+            origin: (plan.first_step, 0.0),
             workers,
             scratch,
             injected: None,
@@ -340,7 +354,7 @@ where
             let first = self.ranges[g].first as usize;
             let kernel = &self.groups[g].kernel;
             let own = &kernel.stages().columns;
-            let initial_speed = prepare::<R, D>(group)?.initial_speed;
+            let initial_speeds = prepare::<R, D>(group)?.initial_speeds;
             let given: Vec<bool> = match &group.placement {
                 Placement::Given(start) => {
                     check_start(group, start, &self.declared)?;
@@ -370,7 +384,7 @@ where
                         let draw = |slot| space::random::uniform(plan.seed, Purpose::Init, id, slot);
                         let at = Vector(core::array::from_fn(|a| low[a] + (high[a] - low[a]) * R::of(draw(a as u32))));
                         let heading: Vector<R, D> = unit_vector(draw(4), draw(5));
-                        (at, Some(heading * initial_speed))
+                        (at, Some(heading * initial_speeds[member]))
                     }
                 };
                 let mut moving = velocity.unwrap_or(Vector::ZERO);
@@ -677,6 +691,10 @@ impl<R: Scalar, const D: usize> World<R, D> {
         self.now = saved.columns.clone();
         self.step = saved.step;
         self.time = saved.time;
+        // a state that other steps led to goes on from its own time
+        if self.time_at(saved.step) != saved.time {
+            self.origin = (saved.step, saved.time);
+        }
         self.resources = saved.resources.clone();
         self.clocks = saved.clocks.clone();
         self.met_total = saved.met_total;

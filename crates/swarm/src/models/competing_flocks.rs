@@ -348,6 +348,7 @@ mod tests {
     use super::*;
     use crate::engine::{World, WorldPlan};
     use crate::models::oracle::{Oracle, close};
+    use crate::parameters::GREATEST;
     use crate::resources::{Gain, Metabolism, ResourcePlan, Respawn};
     use space::Space;
 
@@ -437,10 +438,10 @@ mod tests {
     fn no_state_however_degenerate_gives_anything_but_finite_numbers() {
         let gene_sets = [
             [0.0; GENES],
-            [1e308; GENES],
+            [GREATEST; GENES],
             [1e-308; GENES],
             [1.0; GENES],
-            [0.0, 1e308, 0.0, 1e308, 0.0, 1e308, 0.0, 1e308, 0.0, 1e308, 0.0, 1e308],
+            [0.0, GREATEST, 0.0, GREATEST, 0.0, GREATEST, 0.0, GREATEST, 0.0, GREATEST, 0.0, GREATEST],
         ];
         for genes in gene_sets {
             for (spread, speed) in [(0.0, 0.0), (1e-200, 1e-200), (1e-13, 5.0), (1.0, 1e150), (30.0, 12.0)] {

@@ -99,8 +99,8 @@ impl<R: Scalar> Law<R> for Helbing2005<R> {
     fn obstacle_reach(&self) -> Option<R> {
         Some(self.wall_range)
     }
-    fn initial_speed(&self) -> R {
-        self.desired_speed.of(0).copied().unwrap_or(R::ZERO)
+    fn initial_speed_of(&self, member: usize) -> R {
+        self.desired_speed.of(member).copied().unwrap_or(R::ZERO)
     }
     fn check(&self, members: usize) -> Result<(), String> {
         self.desired_speed.check("desired_speed", members)?;

@@ -4,7 +4,7 @@
 use crate::card::Card;
 use crate::engine::{Kernel, Listed, Stages, Streamed};
 use crate::motion::{Law, Model, Needs, Stream, Summed, Variant};
-use crate::parameters::{Descriptor, ParameterError, Parameters, Scalar, Values};
+use crate::parameters::{Descriptor, Kind, Parameter, ParameterError, Parameters, Points, Scalar, Values};
 use crate::physics::Contact;
 use crate::selection::NamedSet;
 use space::Column;
@@ -27,7 +27,8 @@ pub struct Prepared<R, const D: usize> {
     pub(crate) contact: Contact,
     pub(crate) bodies_meet: bool,
     pub(crate) velocity_is_step: bool,
-    pub(crate) initial_speed: R,
+    /// For each member.
+    pub(crate) initial_speeds: Vec<R>,
     /// Finishes the kernel when the stages are resolved.
     pub(crate) build: Build<R, D>,
     /// The neighbourhood a streaming law sums over, for choosing the index.
@@ -39,9 +40,9 @@ impl<R: Scalar, const D: usize> Prepared<R, D> {
     pub fn body_radius(&self) -> R {
         self.body_radius
     }
-    /// Speed at which members begin, unless their velocities are given.
-    pub fn initial_speed(&self) -> R {
-        self.initial_speed
+    /// Speed at which each member begins, unless its velocity is given.
+    pub fn initial_speeds(&self) -> &[R] {
+        &self.initial_speeds
     }
     /// Time of a step.
     pub fn time_step(&self) -> R {
@@ -68,6 +69,7 @@ fn prepared<R: Scalar, const D: usize, M: Law<R>>(
     stream_reach: Option<R>,
     build: Build<R, D>,
 ) -> Result<Prepared<R, D>, ParameterError> {
+    points_have_all_coordinates::<R, D, M>(model)?;
     model.check(members).map_err(ParameterError::Together)?;
     Ok(Prepared {
         sets,
@@ -79,7 +81,7 @@ fn prepared<R: Scalar, const D: usize, M: Law<R>>(
         contact: model.contact(),
         bodies_meet: model.bodies_meet(),
         velocity_is_step: model.velocity_is_step(),
-        initial_speed: model.initial_speed(),
+        initial_speeds: (0..members).map(|member| model.initial_speed_of(member)).collect(),
         stream_reach,
         build,
     })
@@ -99,6 +101,22 @@ fn streamed<R: Scalar, const D: usize, T: Stream<R, D>>(law: T) -> (Vec<NamedSet
     }
     let build: Build<R, D> = Box::new(move |stages| Box::new(Streamed { listed: Listed { law: Summed(law), stages } }));
     (sets, Some(reach), build)
+}
+
+/// Refuses a point that lacks a coordinate: to the law it would be none at all.
+fn points_have_all_coordinates<R: Scalar, const D: usize, M: Law<R>>(law: &M) -> Result<(), ParameterError> {
+    let values = law.values();
+    for descriptor in M::descriptors().iter().filter(|descriptor| descriptor.takes == Kind::Points) {
+        let points = values.get(descriptor.name).and_then(Points::<R>::read).unwrap_or(Points(Vec::new()));
+        if let Some(short) = points.0.iter().find(|point| point.len() != D) {
+            return Err(ParameterError::Together(format!(
+                "`{}` needs {D} coordinates for each point, found {}",
+                descriptor.name,
+                short.len()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// A law that is given lists.
