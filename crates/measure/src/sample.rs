@@ -1,8 +1,8 @@
 //! The members a metric is computed over, read once from a frame.
 
 use crate::domains;
-use crate::ground::{departure, geodesic, middle};
-use crate::hull::{Hull, flat_hull};
+use crate::ground::{departure, geodesic, middle, polygon};
+use crate::hull::{Hull, flat_hull, solid_hull};
 use crate::near::{
     dense_clusters, flooded, linked, nearest_distances, nearest_others, nearest_others_by, pairs_within,
 };
@@ -50,6 +50,7 @@ struct Kept<const D: usize> {
     clusters: OnceLock<(f64, usize, Vec<Option<usize>>)>,
     unwrapped: OnceLock<Option<Vec<Vector<f64, D>>>>,
     hull: OnceLock<Option<Hull>>,
+    solid: OnceLock<Option<(f64, f64)>>,
     domains: OnceLock<Option<Vec<f64>>>,
 }
 
@@ -65,6 +66,7 @@ impl<const D: usize> Kept<D> {
             clusters: OnceLock::new(),
             unwrapped: OnceLock::new(),
             hull: OnceLock::new(),
+            solid: OnceLock::new(),
             domains: OnceLock::new(),
         }
     }
@@ -266,6 +268,23 @@ impl<const D: usize> Sample<D> {
     /// The convex hull of [`Sample::unwrapped`] in two dimensions. `None` in others, and where all members are on one line.
     pub fn hull(&self) -> Option<&Hull> {
         self.kept.hull.get_or_init(|| if D == 2 { flat_hull(self.unwrapped()?) } else { None }).as_ref()
+    }
+    /// Area and perimeter of the [`Sample::hull`]; on the globe its sides are geodesics between the same corners.
+    pub fn hull_area_and_perimeter(&self) -> Option<(f64, f64)> {
+        let hull = self.hull()?;
+        if self.places.is_empty() {
+            return Some((hull.area, hull.perimeter));
+        }
+        Some(polygon(hull.corners.iter().map(|&corner| self.places[corner])))
+    }
+    /// Volume and surface of the convex hull of [`Sample::unwrapped`] in three dimensions. `None` in others, and where all members
+    /// are in one plane.
+    pub fn solid_hull(&self) -> Option<(f64, f64)> {
+        let compute = || {
+            let places: Vec<_> = self.unwrapped()?.iter().map(|place| Vector::of(&place.0)).collect();
+            solid_hull(&places)
+        };
+        *self.kept.solid.get_or_init(|| if D == 3 { compute() } else { None })
     }
     /// The domain of danger of each member within the convex hull, `[len]`, length^2; on a line from the first member to the last.
     /// `None` without a hull, and in three dimensions.

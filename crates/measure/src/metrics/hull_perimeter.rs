@@ -2,7 +2,6 @@
 //!
 //! On the globe the sides are geodesics between the corners of the local plane.
 
-use crate::ground::polygon;
 use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
 
 /// `hull_perimeter`.
@@ -25,11 +24,7 @@ impl Metric for HullPerimeter {
         edge: EdgeCases { empty: "undefined", one: "undefined", at_rest: "as ever" },
     };
     fn value<const D: usize>(&self, sample: &Sample<D>) -> Option<f64> {
-        let hull = sample.hull()?;
-        if sample.places().is_empty() {
-            return Some(hull.perimeter);
-        }
-        Some(polygon(hull.corners.iter().map(|&corner| sample.places()[corner])).1)
+        Some(sample.hull_area_and_perimeter()?.1)
     }
 }
 

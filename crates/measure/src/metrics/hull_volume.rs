@@ -1,8 +1,6 @@
 //! How much room a group takes in space: the volume of its convex hull.
 
-use crate::hull::solid_hull;
 use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
-use space::Vector;
 
 /// `hull_volume`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,11 +22,7 @@ impl Metric for HullVolume {
         edge: EdgeCases { empty: "undefined", one: "undefined", at_rest: "as ever" },
     };
     fn value<const D: usize>(&self, sample: &Sample<D>) -> Option<f64> {
-        if D != 3 {
-            return None;
-        }
-        let places: Vec<Vector<f64, 3>> = sample.unwrapped()?.iter().map(|place| Vector::of(&place.0)).collect();
-        Some(solid_hull(&places)?.0)
+        Some(sample.solid_hull()?.0)
     }
 }
 

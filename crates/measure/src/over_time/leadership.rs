@@ -7,6 +7,9 @@ use crate::metric::takes;
 use crate::{Counted, Field, Listing, MeasureError, Takes, TrackCard, TrackMetric, Tracks};
 use space::Vector;
 
+/// So many times as many moments as frames are too few frames to be laid side by side.
+const SPARSE: usize = 64;
+
 takes! {
     /// `leadership`.
     pub struct Leadership { max_lag: MAX_LAG }
@@ -41,6 +44,10 @@ impl TrackMetric for Leadership {
         // headings at every usual step of the numbers of frames; the zero vector where there is none
         let (first, step) = (tracks.frames().first().copied().unwrap_or(0), tracks.step());
         let length = tracks.frames().last().map_or(0, |last| ((last - first) / step + 1) as usize);
+        if length > SPARSE * tracks.frames().len() {
+            let needs = "frames that mostly follow each other";
+            return Err(MeasureError::Unfit { metric: Self::CARD.id, needs });
+        }
         let mut headings: Vec<Vec<Vector<f64, D>>> = Vec::new();
         for individual in 0..paths.len() {
             let mut of_one = vec![Vector::ZERO; length];
@@ -60,7 +67,8 @@ impl TrackMetric for Leadership {
                 for &delay in &delays {
                     let shift = delay.unsigned_abs() as usize;
                     let shifted = |k: usize| headings[k].get(shift..).unwrap_or_default();
-                    let (from, to) = if delay >= 0 { (&headings[i][..], shifted(j)) } else { (shifted(i), &headings[j][..]) };
+                    let (from, to) =
+                        if delay >= 0 { (&headings[i][..], shifted(j)) } else { (shifted(i), &headings[j][..]) };
                     let (sum, pairs) = from.iter().zip(to).fold((0.0, 0.0), |(sum, pairs), (&one, &other)| {
                         let both = one != Vector::ZERO && other != Vector::ZERO;
                         if both { (sum + one.dot(other), pairs + 1.0) } else { (sum, pairs) }

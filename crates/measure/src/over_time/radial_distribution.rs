@@ -2,10 +2,8 @@
 
 use super::velocity_correlation::{BIN_WIDTH, BINS};
 use crate::Sample;
-use crate::hull::solid_hull;
 use crate::metric::takes;
 use crate::{Counted, Field, Listing, MeasureError, Takes, TrackCard, TrackMetric, Tracks};
-use space::Vector;
 
 takes! {
     /// `radial_distribution`.
@@ -68,7 +66,7 @@ fn room<const D: usize>(sample: &Sample<D>) -> Option<f64> {
         (Some(sides), _) => sides.iter().product(),
         (None, 1) => sample.domains_of_danger()?.iter().sum(),
         (None, 2) => sample.hull()?.area,
-        _ => solid_hull(&Vec::from_iter(sample.unwrapped()?.iter().map(|place| Vector::of(&place.0))))?.0,
+        _ => sample.solid_hull()?.0,
     };
     (room > 0.0).then_some(room)
 }
