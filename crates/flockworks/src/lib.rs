@@ -8,6 +8,7 @@ pub mod emit;
 pub mod fault;
 pub mod files;
 pub mod json;
+pub mod metrics;
 pub mod models;
 pub mod plain;
 pub mod run;

@@ -5,6 +5,9 @@
 //! sums are taken in that order and in f64, and offsets go by minimum image on periodic axes. Each metric is one
 //! file in [`metrics`] and one line in its list; its [`MetricCard`] says what it is and where it is undefined.
 //!
+//! [`Tracks`] are the frames of animals (or of a recorded run) in one table. [`per_frame`] measures every frame of them;
+//! what needs more than one moment is a [`TrackMetric`], listed in [`over_time`].
+//!
 //! ```
 //! use measure::{Metric, Sample, metrics};
 //! use space::{Columns, Frame, Space, Vector};
@@ -27,11 +30,23 @@
 //! }
 //! ```
 
+pub mod domains;
+pub mod ground;
+pub mod hull;
 mod metric;
 pub mod metrics;
 pub mod near;
+pub mod over_time;
+mod per_frame;
 mod sample;
 pub mod statistics;
+mod track_metric;
+mod tracks;
+pub mod way_points;
 
-pub use metric::{Counted, EdgeCases, Measure, MeasureError, Metric, MetricCard, Parameter};
+pub use ground::Ground;
+pub use metric::{Bounds, Counted, EdgeCases, Measure, MeasureError, Metric, MetricCard, Parameter, Takes};
+pub use per_frame::{PerFrame, per_frame};
 pub use sample::Sample;
+pub use track_metric::{Field, Kind, Listing, MeasureTracks, TrackCard, TrackMetric};
+pub use tracks::{Clock, Paths, Rows, Tracks, TracksError};
