@@ -41,7 +41,7 @@ pub enum Command {
     Check(CheckOptions),
     /// Print a commented file to start from.
     New(KindOptions),
-    /// Print the JSON schema of a kind of file, for editors, or the table of its keys.
+    /// Print the JSON schema of a kind of file, for editors, or the table of its keys; without a kind, all kinds.
     Schema(SchemaOptions),
     /// Say what moved one agent of a recorded run: what it perceived, whom it selected, what each rule asked, as JSON.
     Explain(ExplainOptions),

@@ -7,7 +7,8 @@ mod assets;
 mod session;
 
 use crate::fault::{Fault, wrong};
-use crate::run::{PROGRAM, read_back, scenario};
+use crate::kinds;
+use crate::run::{PROGRAM, read_back};
 use axum::Router;
 use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade};
 use axum::extract::{Path as Part, State};
@@ -74,9 +75,9 @@ pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
             read_back(path)?;
             given.push(Given::Run(path.clone()));
         } else {
-            let name = path.display().to_string();
-            let read = scenario(&name, &[])?;
-            given.push(Given::Scenario(name, read.sources.text(0).to_owned()));
+            let (kind, input) = kinds::read(&path.display().to_string(), &[])?;
+            let (name, text) = kind.view(&input, options)?;
+            given.push(Given::Scenario(name, text));
         }
     }
     let runtime = tokio::runtime::Builder::new_multi_thread()

@@ -256,6 +256,7 @@ fn new_manifest(request: &Request, identity: Json, seed: u64, schedule: &Schedul
     let sources = &request.read.sources;
     json!({
         "format": 1,
+        "kind": "scenario",
         "status": "running",
         "title": request.read.scenario.title,
         "seed": seed,
