@@ -168,6 +168,7 @@ fn metric(card: &measure::MetricCard, form: MetricsForm) -> String {
         measure::Counted::Positions => "those with a position",
         measure::Counted::Velocities => "those with a position and a velocity",
         measure::Counted::Headings => "those with a heading, that is with a speed above 1e-12",
+        measure::Counted::Bodies => "those whose direction of the body is known",
     };
     let edge = &card.edge;
     let mut rows = vec![

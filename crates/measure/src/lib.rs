@@ -27,10 +27,16 @@
 //! }
 //! ```
 
+pub mod ground;
 mod metric;
 pub mod metrics;
 pub mod near;
+mod per_frame;
 mod sample;
+mod tracks;
 
+pub use ground::Ground;
 pub use metric::{Counted, EdgeCases, Measure, MeasureError, Metric, MetricCard, Parameter};
+pub use per_frame::{PerFrame, per_frame};
 pub use sample::Sample;
+pub use tracks::{Clock, Paths, Rows, Tracks, TracksError};

@@ -13,6 +13,8 @@ pub enum Counted {
     Velocities,
     /// Those with a heading, that is with a speed above 1e-12.
     Headings,
+    /// Those whose direction of the body is known.
+    Bodies,
 }
 
 /// What a metric gives where there is little to measure.

@@ -1,7 +1,8 @@
 //! The members a metric is computed over, read once from a frame.
 
-use crate::Counted;
+use crate::ground::{departure, geodesic, middle};
 use crate::near::{linked, nearest_distances};
+use crate::{Counted, Ground};
 use space::{Edge, Frame, GroupRange, Real, Space, Vector};
 use std::sync::OnceLock;
 
@@ -16,11 +17,16 @@ pub(crate) const CANCELLED: f64 = 1e-6;
 /// A member whose position is not finite is not there, and one whose velocity is not finite has no velocity: so
 /// tracks with gaps can be read. What several metrics need (the centre, the nearest distances, the groups) is
 /// computed when it is first asked for, and kept.
+///
+/// On the globe positions are those of a plane about the centre of the frame; see [`Ground::Globe`].
 #[derive(Debug)]
 pub struct Sample<const D: usize> {
     space: Space<f64, D>,
     positions: Vec<Vector<f64, D>>,
     velocities: Vec<Option<Vector<f64, D>>>,
+    bodies: Vec<Option<Vector<f64, D>>>,
+    /// Longitude and latitude, degrees; empty in the plane.
+    places: Vec<[f64; 2]>,
     distances: OnceLock<Option<Vec<f64>>>,
     nearest: OnceLock<Vec<f64>>,
     groups: OnceLock<(f64, Vec<usize>)>,
@@ -29,16 +35,49 @@ pub struct Sample<const D: usize> {
 impl<const D: usize> Sample<D> {
     /// Members by position and velocity, in the order in which sums are to be taken.
     pub fn new(space: Space<f64, D>, members: impl IntoIterator<Item = (Vector<f64, D>, Vector<f64, D>)>) -> Self {
-        let there = members.into_iter().filter(|(position, _)| position.finite());
-        let (positions, velocities) =
-            there.map(|(position, velocity)| (space.place(position), Some(velocity).filter(|v| v.finite()))).unzip();
-        Self {
+        let mut sample = Self {
             space,
-            positions,
-            velocities,
+            positions: Vec::new(),
+            velocities: Vec::new(),
+            bodies: Vec::new(),
+            places: Vec::new(),
             distances: OnceLock::new(),
             nearest: OnceLock::new(),
             groups: OnceLock::new(),
+        };
+        sample.fill(&Ground::Plane(space), members.into_iter().map(|(position, velocity)| (position, velocity, None)));
+        sample
+    }
+    /// Puts other members in place of these, by position, velocity and, where it is known, the direction of the body (a unit
+    /// vector). The memory is used again.
+    pub fn fill(
+        &mut self,
+        ground: &Ground<D>,
+        members: impl IntoIterator<Item = (Vector<f64, D>, Vector<f64, D>, Option<Vector<f64, D>>)>,
+    ) {
+        self.positions.clear();
+        self.velocities.clear();
+        self.bodies.clear();
+        self.places.clear();
+        (self.distances, self.nearest, self.groups) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        self.space = match ground {
+            Ground::Plane(space) => *space,
+            Ground::Globe => Space::open(),
+        };
+        for (position, velocity, body) in members {
+            if position.finite() {
+                self.positions.push(self.space.place(position));
+                self.velocities.push(Some(velocity).filter(|v| v.finite()));
+                self.bodies.push(body);
+            }
+        }
+        if *ground == Ground::Globe {
+            self.places.extend(self.positions.iter().map(|place| [place.0[0], place.0[1]]));
+            if let Some(centre) = middle(self.places.iter().copied()) {
+                for (position, &place) in self.positions.iter_mut().zip(&self.places) {
+                    *position = Vector::of(&departure(centre, place).0);
+                }
+            }
         }
     }
     /// The members in these rows of a frame, in any order. A row given twice counts once; a row that the frame does
@@ -81,6 +120,7 @@ impl<const D: usize> Sample<D> {
             Counted::Positions => self.len(),
             Counted::Velocities => self.velocities().count(),
             Counted::Headings => self.headings().count(),
+            Counted::Bodies => self.bodies().count(),
         }
     }
     /// The space.
@@ -101,6 +141,22 @@ impl<const D: usize> Sample<D> {
             velocity.filter(|v| !v.is_tiny()).map(|v| (position, v.unit()))
         };
         self.positions.iter().zip(&self.velocities).filter_map(moving)
+    }
+
+    /// The known directions of bodies, unit vectors.
+    pub fn bodies(&self) -> impl Iterator<Item = Vector<f64, D>> {
+        self.bodies.iter().flatten().copied()
+    }
+    /// Longitude and latitude of the members, degrees, `[len]`; empty in the plane.
+    pub fn places(&self) -> &[[f64; 2]] {
+        &self.places
+    }
+    /// The distance between two members: by minimum image in the plane, geodesic on the globe.
+    pub fn distance(&self, i: usize, j: usize) -> f64 {
+        match (self.places.get(i), self.places.get(j)) {
+            (Some(&here), Some(&there)) => geodesic(here, there),
+            _ => self.space.offset(self.positions[i], self.positions[j]).length(),
+        }
     }
 
     /// The centre of the group; see [`Sample::from_centre`].
