@@ -1,5 +1,6 @@
 //! The commands and their options.
 
+use crate::analyze::{AnalyzeOptions, analyze};
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
@@ -35,6 +36,8 @@ pub struct Line {
 pub enum Command {
     /// Run a file: results, tables and a page in a folder. The same command again continues where it stopped.
     Run(RunOptions),
+    /// Measure tracks of animals, people or simulations: tables of text or Parquet, or folders of runs.
+    Analyze(AnalyzeOptions),
     /// Look at a world while it runs and change it, or at runs that were recorded: a page on this machine alone.
     View(ViewOptions),
     /// Check files and run nothing: everything that is wrong, at its place.
@@ -86,6 +89,7 @@ pub enum Command {
 pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
     match &line.command {
         Command::Run(options) => run::run(options, out),
+        Command::Analyze(options) => analyze(options, out).map(|()| 0),
         Command::View(options) => view(options, out).map(|()| 0),
         Command::Check(options) => run::check(options, out).map(|()| 0),
         Command::New(options) => files::new(options, out).map(|()| 0),

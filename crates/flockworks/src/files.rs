@@ -7,6 +7,7 @@ use crate::run::read_back;
 use crate::table::Table;
 use clap::{Args, CommandFactory, ValueEnum};
 use lab::run::{EVENTS, METRICS, TRAJECTORY};
+use lab::store::folder::whole_file;
 use lab::store::table::Table as Stored;
 use lab::store::{StoreError, export as forms};
 use std::io::Write;
@@ -214,19 +215,7 @@ pub fn export(options: &ExportOptions, out: &mut dyn Write) -> Result<(), Fault>
         let table = Stored::open(&path)?;
         let Form::Csv = options.to;
         let target = to.join(name).with_extension("csv");
-        let part = target.with_extension("csv.part");
-        let write = || {
-            let file = std::fs::File::create(&part).map_err(|error| StoreError::io("create", &part, error))?;
-            let mut file = std::io::BufWriter::new(file);
-            forms::csv(&table, &mut file)?;
-            file.flush().map_err(|error| StoreError::io("write", &target, error))?;
-            std::fs::rename(&part, &target).map_err(|error| StoreError::io("write", &target, error))
-        };
-        if let Err(error) = write() {
-            // nothing half-written stays; the first error is the one to tell
-            let _ = std::fs::remove_file(&part);
-            return Err(error.into());
-        }
+        whole_file(&target, |file| forms::csv(&table, file))?;
         writeln!(out, "{}: {} rows", target.display(), table.rows())?;
     }
     Ok(())

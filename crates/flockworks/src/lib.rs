@@ -1,5 +1,6 @@
 //! `flockworks`: the command line. It reads files, hands them to the rooms below, and prints what comes back; the logic is theirs.
 
+pub mod analyze;
 pub mod bench;
 pub mod case;
 pub mod command;

@@ -34,7 +34,9 @@ fn damaged(path: &Path, error: &ParquetError) -> StoreError {
 pub(super) fn head(path: &Path) -> Result<Head, StoreError> {
     let reader = open(path)?;
     let meta = reader.metadata().file_metadata();
-    let names = meta.schema_descr().columns().iter().map(|column| column.path().string()).collect();
+    let columns = meta.schema_descr().columns();
+    let names = columns.iter().map(|column| column.path().string()).collect();
+    let words = (0..columns.len()).filter(|&c| columns[c].physical_type() == Physical::BYTE_ARRAY).collect();
     let mut comments = Vec::new();
     let notes = meta.key_value_metadata().into_iter().flatten();
     for note in notes {
@@ -48,7 +50,7 @@ pub(super) fn head(path: &Path) -> Result<Head, StoreError> {
             comments.push(format!("framerate: {value}"));
         }
     }
-    Ok(Head { path: path.to_owned(), comments, rows: vec![names], delimiter: None })
+    Ok(Head { path: path.to_owned(), comments, rows: vec![names], delimiter: None, words })
 }
 
 /// The values of a column in a row group.
@@ -84,13 +86,6 @@ impl Row for FlatRow<'_> {
     fn place(&self) -> String {
         format!("row {}", self.first + self.row as u64 + 1)
     }
-}
-
-/// Whether a column holds time stamps in words, which only its type tells.
-pub(super) fn in_words(path: &Path, column: usize) -> Result<bool, StoreError> {
-    let reader = open(path)?;
-    let schema = reader.metadata().file_metadata().schema_descr();
-    Ok(schema.columns().get(column).is_some_and(|column| column.physical_type() == Physical::BYTE_ARRAY))
 }
 
 /// Calls `each` for every row.
@@ -201,8 +196,8 @@ impl Words {
 }
 
 fn read(reader: ColumnReader, about: &ColumnDescriptor, rows: usize, as_words: bool) -> Result<Cells, ParquetError> {
-    let seconds = match about.logical_type_ref() {
-        Some(LogicalType::Timestamp { unit, .. }) => match unit {
+    let seconds: f64 = match about.logical_type_ref() {
+        Some(LogicalType::Timestamp(stamp)) => match stamp.unit {
             TimeUnit::MILLIS => 1e-3,
             TimeUnit::MICROS => 1e-6,
             TimeUnit::NANOS => 1e-9,

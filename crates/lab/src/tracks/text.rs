@@ -26,6 +26,8 @@ pub struct Head {
     pub rows: Vec<Vec<String>>,
     /// What parts cells; none for a Parquet file.
     pub delimiter: Option<u8>,
+    /// Columns of a Parquet file that hold words.
+    pub words: Vec<usize>,
 }
 
 impl Head {
@@ -63,7 +65,8 @@ impl Head {
         };
         let delimiter = delimiter_of(first);
         head.delimiter = Some(delimiter);
-        let mut rows = csv_reader(lines.join("\n").as_bytes(), delimiter).into_byte_records();
+        let text = lines.join("\n");
+        let mut rows = csv_reader(text.as_bytes(), delimiter).into_byte_records();
         while let Some(Ok(row)) = rows.next() {
             head.rows.push(cells(&row, delimiter).map(|c| String::from_utf8_lossy(c).into_owned()).collect());
         }
@@ -74,6 +77,12 @@ impl Head {
         let cells = || self.rows.get(row).into_iter().flatten();
         let reads = |cell: &String| number(cell.as_bytes(), self.decimal_comma());
         cells().all(|cell| reads(cell).is_ok()) && cells().any(|cell| reads(cell).is_ok_and(f64::is_finite))
+    }
+    /// Whether a column holds words behind the rows that are skipped.
+    pub fn holds_words(&self, column: usize, skip: usize) -> bool {
+        let cells = self.rows.iter().skip(skip).filter_map(|row| row.get(column));
+        let mut words = cells.filter(|cell| number(cell.as_bytes(), self.decimal_comma()).is_err());
+        self.words.contains(&column) || words.next().is_some()
     }
     /// The cells of a row as names; of a row of numbers, none.
     pub fn header(&self) -> Option<&[String]> {

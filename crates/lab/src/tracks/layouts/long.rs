@@ -2,7 +2,7 @@
 
 use super::{Clock, Layout, Place, Plan, Point, Who};
 use crate::store::StoreError;
-use crate::tracks::text::{Head, number};
+use crate::tracks::text::Head;
 use crate::tracks::{Ask, names, wrong};
 
 pub(super) const LAYOUT: Layout =
@@ -37,9 +37,7 @@ fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
         time = None;
     }
     let first = usize::from(headed);
-    let sample = |column: usize| head.rows.iter().skip(first).filter_map(move |row| row.get(column));
-    let is_stamp = |column: usize| sample(column).any(|cell| number(cell.as_bytes(), head.decimal_comma()).is_err());
-    let time = time.map(|column| Clock { column, stamps: is_stamp(column) });
+    let time = time.map(|column| Clock { column, stamps: head.holds_words(column, first) });
     let velocity: Option<Vec<usize>> = ["vx", "vy", "vz"][..axes.len()]
         .iter()
         .map(|role| at(role))

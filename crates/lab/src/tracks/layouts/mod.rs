@@ -9,7 +9,7 @@ mod idtracker;
 mod long;
 mod pedestrian;
 mod sleap;
-mod trex;
+pub(crate) mod trex;
 mod wide;
 
 use super::text::Head;

@@ -63,11 +63,7 @@ fn named(head: &Head, ask: &Ask, names: Vec<String>) -> Result<Option<Plan>, Sto
     let places = individuals.into_iter().map(place).collect();
     let at = |role| names::column(head, &names, ask, role);
     let (frame, time) = (at("frame")?, at("time")?);
-    let stamp = |column: usize| {
-        let cell = head.rows.get(1).and_then(|row| row.get(column));
-        cell.is_some_and(|cell| number(cell.as_bytes(), head.decimal_comma()).is_err())
-    };
-    let time = time.map(|column| Clock { column, stamps: stamp(column) });
+    let time = time.map(|column| Clock { column, stamps: head.holds_words(column, 1) });
     Ok(Some(Plan { skip: 1, frame, time, places, names, ..Plan::default() }))
 }
 
