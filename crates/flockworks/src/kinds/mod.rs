@@ -9,6 +9,7 @@ use crate::run::{RunOptions, text_of};
 use crate::view::ViewOptions;
 use lab::file::Problems;
 use lab::file::kind::kind_of;
+use lab::live::{LiveError, Shown};
 use lab::store::folder;
 use serde_json::Value as Json;
 use std::io::{IsTerminal, Write};
@@ -56,6 +57,16 @@ pub trait Kind: Sync {
         let _ = options;
         wrong(format!("`{}` is of the kind {}, of which there is nothing to look at", input.name, self.id()))
     }
+    /// How many things there are to look at in a complete folder.
+    ///
+    /// # Errors
+    /// A folder that is not complete.
+    fn recordings(&self, folder: &Path) -> Result<usize, Fault>;
+    /// One of them.
+    ///
+    /// # Errors
+    /// A folder that is not complete, or has no such recording.
+    fn show(&self, folder: &Path, recording: usize) -> Result<Box<dyn Shown>, LiveError>;
     /// Makes the page of a complete folder anew.
     ///
     /// # Errors

@@ -4,6 +4,7 @@ use super::{Input, Kind};
 use crate::fault::Fault;
 use crate::run::{self, RunOptions};
 use crate::view::ViewOptions;
+use lab::live::{LiveError, Recorded, Shown};
 use lab::scenario::{self, build};
 use serde_json::Value as Json;
 use std::io::Write;
@@ -40,6 +41,13 @@ impl Kind for Scenario {
     fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
         let read = run::scenario(input)?;
         Ok((input.name.clone(), read.sources.text(0).to_owned()))
+    }
+    fn recordings(&self, folder: &Path) -> Result<usize, Fault> {
+        run::read_back(folder).map(|_| 1)
+    }
+    fn show(&self, folder: &Path, _: usize) -> Result<Box<dyn Shown>, LiveError> {
+        let (read, seed, quick) = run::read_back(folder).map_err(|fault| LiveError::Request(fault.to_string()))?;
+        Ok(Box::new(Recorded::open(folder, read, seed, quick)?))
     }
     fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         run::report_of_run(folder, out)

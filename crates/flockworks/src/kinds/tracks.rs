@@ -4,6 +4,7 @@ use super::{Input, Kind, shown};
 use crate::analyze::{self, Job};
 use crate::fault::{Fault, wrong};
 use crate::run::RunOptions;
+use lab::live::{LiveError, Shown, Tracked};
 use lab::tracks::{self, file, folder};
 use serde_json::Value as Json;
 use std::io::Write;
@@ -62,6 +63,13 @@ impl Kind for Tracks {
         };
         analyze::run(&job, out)?;
         Ok(0)
+    }
+    fn recordings(&self, path: &Path) -> Result<usize, Fault> {
+        let manifest = folder::manifest_of(path)?;
+        Ok(manifest.get("recordings").and_then(Json::as_array).map_or(0, Vec::len))
+    }
+    fn show(&self, path: &Path, recording: usize) -> Result<Box<dyn Shown>, LiveError> {
+        Ok(Box::new(Tracked::open(path, recording)?))
     }
     fn report(&self, path: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         let manifest = folder::manifest_of(path)?;

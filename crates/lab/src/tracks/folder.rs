@@ -142,11 +142,14 @@ fn manifest(request: &Request<'_>, all: &[Analysed]) -> Json {
             let names = with_tracks!(&one.recording.table, tracks => tracks.names());
             let lines: serde_json::Map<String, Json> =
                 understood.lines().into_iter().map(|(what, text)| (what.to_owned(), json!(text))).collect();
+            let (low, high) = with_tracks!(&one.recording.table, tracks => tables::box_of(tracks, &understood.extent));
             json!({
                 "name": one.recording.name,
                 "file": one.recording.path.display().to_string(),
                 "understood": lines,
                 "dimensions": understood.extent.len(),
+                "low": low,
+                "high": high,
                 "frames": understood.frames,
                 "units": { "length": one.units.length, "time": one.units.time },
                 "individuals": names,

@@ -396,3 +396,7 @@ fn count<const D: usize>(tracks: &Tracks<D>, understood: &mut Understood) {
     let whole = |life: &Option<(i64, i64, usize)>| life.is_some_and(|life| (life.0, life.1) == (first, last));
     understood.come_and_go = lives.iter().filter(|life| !whole(life)).count();
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+mod tests;

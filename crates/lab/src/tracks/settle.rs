@@ -4,6 +4,7 @@
 use super::gather::Gathered;
 use super::layouts::{Plan, Who};
 use super::{Ask, Rate, stamps, wrong};
+use crate::report::of_run::short;
 use crate::store::StoreError;
 use measure::Clock;
 use std::path::Path;
@@ -155,7 +156,8 @@ fn frames(path: &Path, plan: &Plan, ask: &Ask, read: &mut Gathered) -> Result<Fr
         return moment(path, plan, read);
     }
     if plan.frame.is_none() && plan.time.is_some() {
-        return of_times(path, plan, ask, core::mem::take(&mut read.time));
+        let time = core::mem::take(&mut read.time);
+        return of_times(path, plan, ask, time, &read.who);
     }
     let frame = core::mem::take(&mut read.frame);
     let mut notes = Vec::new();
@@ -276,8 +278,22 @@ fn timed(path: &Path, plan: &Plan, frame: Vec<i64>, time: Vec<f64>) -> Result<Fr
     Ok(Frames { frame, clock, rate, origin: dated.then_some(origin), first_counts: false, notes })
 }
 
+/// The median time between an individual's fix and its next one, where rows are in the order of time.
+fn usual_interval(time: &[f64], who: &[u32]) -> Option<f64> {
+    let mut last: Vec<f64> = vec![f64::NAN; who.iter().max().map_or(0, |&most| most as usize + 1)];
+    let mut intervals = Vec::new();
+    for (&t, &who) in time.iter().zip(who) {
+        let before = core::mem::replace(&mut last[who as usize], t);
+        if t - before > SAME {
+            intervals.push(t - before);
+        }
+    }
+    let middle = intervals.len() / 2;
+    (!intervals.is_empty()).then(|| *intervals.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
 /// Frames of times alone.
-fn of_times(path: &Path, plan: &Plan, ask: &Ask, mut time: Vec<f64>) -> Result<Frames, StoreError> {
+fn of_times(path: &Path, plan: &Plan, ask: &Ask, mut time: Vec<f64>, who: &[u32]) -> Result<Frames, StoreError> {
     let dated = plan.time.is_some_and(|clock| clock.stamps) || time.iter().all(|&t| t > 1e8);
     let least = time.iter().copied().fold(f64::INFINITY, f64::min);
     let origin = if dated { least } else { 0.0 };
@@ -309,13 +325,16 @@ fn of_times(path: &Path, plan: &Plan, ask: &Ask, mut time: Vec<f64>) -> Result<F
     }
     gaps.sort_unstable_by(f64::total_cmp);
     let (shortest, usual) = (gaps[0], gaps[gaps.len() / 2]);
-    if shortest < 0.4 * usual {
+    // of individuals with one clock, the time between an individual's fixes is that between ticks, or a few of them
+    let own = usual_interval(&time, who).unwrap_or(usual);
+    if shortest < 0.4 * usual || usual < 0.2 * own {
         return Err(wrong(
             path,
             &format!(
-                "times have no common clock: the usual distance between them is {usual:.4} s, and some are {shortest:.4} s \
-                 apart; --fps F puts each on the nearest of F ticks a second and keeps the first of an individual's fixes \
-                 on a tick"
+                "times have no common clock: an individual has a fix every {} s or so, and some are {} s apart; --fps F puts \
+                 each on the nearest of F ticks a second and keeps the first of an individual's fixes on a tick",
+                short(own),
+                short(shortest)
             ),
         ));
     }

@@ -134,6 +134,21 @@ pub(crate) fn middle<const D: usize>(tracks: &Tracks<D>) -> [f64; 2] {
     [mean(0), mean(1)]
 }
 
+/// The corners of a box that holds the places as they are kept: on the globe, of what the extent in degrees spans.
+pub(crate) fn box_of<const D: usize>(tracks: &Tracks<D>, extent: &[(f64, f64)]) -> (Vec<f64>, Vec<f64>) {
+    if *tracks.ground() != Ground::Globe {
+        return (extent.iter().map(|ends| ends.0).collect(), extent.iter().map(|ends| ends.1).collect());
+    }
+    let middle = middle(tracks);
+    let corner = |east: bool, north: bool| {
+        let pick = |ends: (f64, f64), high: bool| if high { ends.1 } else { ends.0 };
+        measure::ground::departure(middle, [pick(extent[0], east), pick(extent[1], north)]).0
+    };
+    let corners = [corner(false, false), corner(true, false), corner(false, true), corner(true, true)];
+    let ends = |a: usize, fold: fn(f64, f64) -> f64| corners.iter().map(|corner| corner[a]).reduce(fold).unwrap_or(0.0);
+    ((0..2).map(|a| ends(a, f64::min)).collect(), (0..2).map(|a| ends(a, f64::max)).collect())
+}
+
 /// The metrics of all recordings, each once, in the order of the list.
 pub fn cards(all: &[Analysed]) -> Vec<&'static MetricCard> {
     let measured = |card: &&'static MetricCard| all.iter().any(|one| one.cards.iter().any(|c| c.id == card.id));
