@@ -174,6 +174,7 @@ fn metric(card: &measure::MetricCard, form: MetricsForm) -> String {
     let edge = &card.edge;
     let mut rows = vec![
         ("Definition", format!("{} = {}", card.symbol, card.definition.replace('\n', " "))),
+        ("Variant", card.variant.to_owned()),
         ("Unit", card.unit.to_owned()),
         ("Source", card.source.to_owned()),
         ("Members counted", counted.to_owned()),
@@ -183,7 +184,8 @@ fn metric(card: &measure::MetricCard, form: MetricsForm) -> String {
         ),
     ];
     for p in card.parameters {
-        rows.push(("Parameter", format!("{} = {} {}: {}", p.name, p.default, p.unit, p.about)));
+        let default = p.default.map_or_else(|| "(to be given)".to_owned(), |value| value.to_string());
+        rows.push(("Parameter", format!("{} = {default} {}: {}", p.name, p.unit, p.about)));
     }
     let mut text = match form {
         MetricsForm::Text => format!("{}: {}\n", card.id, card.title),

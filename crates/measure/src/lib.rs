@@ -27,7 +27,9 @@
 //! }
 //! ```
 
+pub mod domains;
 pub mod ground;
+pub mod hull;
 mod metric;
 pub mod metrics;
 pub mod near;
@@ -36,7 +38,7 @@ mod sample;
 mod tracks;
 
 pub use ground::Ground;
-pub use metric::{Counted, EdgeCases, Measure, MeasureError, Metric, MetricCard, Parameter};
+pub use metric::{Bounds, Counted, EdgeCases, Measure, MeasureError, Metric, MetricCard, Parameter};
 pub use per_frame::{PerFrame, per_frame};
 pub use sample::Sample;
 pub use tracks::{Clock, Paths, Rows, Tracks, TracksError};

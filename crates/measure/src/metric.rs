@@ -28,18 +28,89 @@ pub struct EdgeCases {
     pub at_rest: &'static str,
 }
 
-/// A number that a metric takes, more than zero.
+/// Which values a parameter may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bounds {
+    /// A finite number above zero.
+    Positive,
+    /// A whole number, 1 or more.
+    Whole,
+    /// Any finite number.
+    Any,
+}
+
+impl Bounds {
+    /// Whether a value may be had.
+    pub fn allow(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Self::Positive => value > 0.0,
+                Self::Whole => value >= 1.0 && value.fract() == 0.0,
+                Self::Any => true,
+            }
+    }
+}
+
+impl core::fmt::Display for Bounds {
+    fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        out.write_str(match self {
+            Self::Positive => "more than 0",
+            Self::Whole => "a whole number, 1 or more",
+            Self::Any => "a finite number",
+        })
+    }
+}
+
+/// A number that a metric takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
     /// Name in files and on the command line.
     pub name: &'static str,
     /// Unit: `length`...
     pub unit: &'static str,
-    /// Value where none is given.
-    pub default: f64,
+    /// Value where none is given; `None` where one must be given.
+    pub default: Option<f64>,
+    /// Which values it may have.
+    pub bounds: Bounds,
     /// One sentence.
     pub about: &'static str,
 }
+
+impl Parameter {
+    /// The value that a metric begins with: NaN where one must be given.
+    pub const fn initial(&self) -> f64 {
+        match self.default {
+            Some(value) => value,
+            None => f64::NAN,
+        }
+    }
+}
+
+/// A metric that takes parameters: the struct, its defaults, the list of its parameters, and the place of each by its name.
+macro_rules! takes {
+    ($(#[$about:meta])* pub struct $metric:ident { $($field:ident: $parameter:expr),+ $(,)? }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $metric {
+            $(#[doc = concat!("See the parameter `", stringify!($field), "` of the card.")] pub $field: f64,)+
+        }
+        impl Default for $metric {
+            fn default() -> Self {
+                Self { $($field: $parameter.initial()),+ }
+            }
+        }
+        impl $metric {
+            const PARAMETERS: &'static [$crate::Parameter] = &[$($parameter),+];
+            fn place(&mut self, name: &str) -> Option<&mut f64> {
+                $(if name == $parameter.name {
+                    return Some(&mut self.$field);
+                })+
+                None
+            }
+        }
+    };
+}
+pub(crate) use takes;
 
 /// A metric's description of itself.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +127,8 @@ pub struct MetricCard {
     pub range: Option<(f64, f64)>,
     /// The formula, as text.
     pub definition: &'static str,
+    /// Which reading of its name this is, where several are in use.
+    pub variant: &'static str,
     /// Where the definition comes from.
     pub source: &'static str,
     /// Which members count.
@@ -104,7 +177,7 @@ pub trait Measure<const D: usize>: Send + Sync {
     /// Changes a parameter.
     ///
     /// # Errors
-    /// Where the metric has no parameter of this name, or the value is not a finite number above zero.
+    /// Where the metric has no parameter of this name, or it may not have this value.
     fn set(&mut self, name: &str, value: f64) -> Result<(), MeasureError>;
     /// The metric of a group; see [`Metric::on`].
     fn on(&self, sample: &Sample<D>) -> Option<f64>;
@@ -115,22 +188,35 @@ impl<M: Metric, const D: usize> Measure<D> for M {
         const { &M::CARD }
     }
     fn set(&mut self, name: &str, value: f64) -> Result<(), MeasureError> {
-        let Some(place) = self.parameter(name) else {
-            let names = M::CARD.parameters.iter().map(|parameter| parameter.name);
-            return Err(MeasureError::UnknownParameter {
-                metric: M::CARD.id,
-                name: name.to_owned(),
-                nearest: nearest(name, names),
-            });
-        };
-        if !(value.is_finite() && value > 0.0) {
-            return Err(MeasureError::Range { metric: M::CARD.id, name: name.to_owned(), found: value });
-        }
+        let known = M::CARD.parameters;
+        let Some(place) = self.parameter(name) else { return Err(unknown_parameter(M::CARD.id, name, known)) };
+        check_parameter(M::CARD.id, name, known, value)?;
         *place = value;
         Ok(())
     }
     fn on(&self, sample: &Sample<D>) -> Option<f64> {
         Metric::on(self, sample)
+    }
+}
+
+/// The refusal of a parameter that a metric does not have.
+pub(crate) fn unknown_parameter(metric: &'static str, name: &str, known: &[Parameter]) -> MeasureError {
+    let nearest = nearest(name, known.iter().map(|parameter| parameter.name));
+    MeasureError::UnknownParameter { metric, name: name.to_owned(), nearest }
+}
+
+/// Refuses a value that a parameter may not have.
+pub(crate) fn check_parameter(
+    metric: &'static str,
+    name: &str,
+    known: &[Parameter],
+    found: f64,
+) -> Result<(), MeasureError> {
+    match known.iter().find(|parameter| parameter.name == name) {
+        Some(parameter) if !parameter.bounds.allow(found) => {
+            Err(MeasureError::Range { metric, name: name.to_owned(), found, bounds: parameter.bounds })
+        }
+        _ => Ok(()),
     }
 }
 
@@ -153,7 +239,7 @@ pub enum MeasureError {
         /// The name that may have been meant.
         nearest: Option<&'static str>,
     },
-    /// The value is not a finite number above zero.
+    /// A parameter may not have this value.
     Range {
         /// The metric.
         metric: &'static str,
@@ -161,6 +247,24 @@ pub enum MeasureError {
         name: String,
         /// The value given.
         found: f64,
+        /// What it may be.
+        bounds: Bounds,
+    },
+    /// A parameter that must be given was not.
+    Missing {
+        /// The metric.
+        metric: &'static str,
+        /// The parameter.
+        name: &'static str,
+        /// What it says.
+        about: &'static str,
+    },
+    /// A metric needs something that these tracks do not have.
+    Unfit {
+        /// The metric.
+        metric: &'static str,
+        /// What it needs.
+        needs: &'static str,
     },
 }
 
@@ -178,9 +282,13 @@ impl core::fmt::Display for MeasureError {
                 }
                 nearest
             }
-            Self::Range { metric, name, found } => {
-                return write!(out, "`{name}` of metric `{metric}` must be more than 0, found {found}");
+            Self::Range { metric, name, found, bounds } => {
+                return write!(out, "`{name}` of metric `{metric}` must be {bounds}, found {found}");
             }
+            Self::Missing { metric, name, about } => {
+                return write!(out, "metric `{metric}` needs a value for `{name}`: {about}");
+            }
+            Self::Unfit { metric, needs } => return write!(out, "metric `{metric}` needs {needs}"),
         };
         nearest.map_or(Ok(()), |nearest| write!(out, "; did you mean `{nearest}`?"))
     }

@@ -1,7 +1,7 @@
-//! Who is near whom: the distance to the nearest other, and groups of linked members.
+//! Who is near whom: the nearest others, pairs within a distance, groups of linked members, dense clusters.
 //!
-//! Both come in two ways that give the same answer: over all pairs, and over the cells of a grid. The functions
-//! without a way in their name choose the faster one.
+//! What depends on distances comes in two ways that give the same answer: over all pairs, and over the cells of a grid.
+//! The functions without a way in their name choose the faster one. What is told by a closure works for any distance.
 
 use space::{Columns, LiveGrid, Space, Vector};
 
@@ -59,28 +59,30 @@ pub fn nearest_by_grid<const D: usize>(space: &Space<f64, D>, places: &[Vector<f
 /// The group of each place when places at most `distance` apart are linked, `[places]`: the connected components,
 /// numbered from 0 in the order of their first place.
 pub fn linked<const D: usize>(space: &Space<f64, D>, places: &[Vector<f64, D>], distance: f64) -> Vec<usize> {
-    // a grid pays where the neighbourhood of a place, three cells a side, is a small part of the whole
-    let cells: f64 = extents(space, places).iter().map(|extent| (extent / distance).max(1.0)).product();
-    let sparse = places.len() > FEW && cells > 4.0 * 3.0f64.powi(D as i32);
-    let by_grid = if sparse { linked_by_grid(space, places, distance) } else { None };
+    let by_grid = if is_sparse(space, places, distance) { linked_by_grid(space, places, distance) } else { None };
     by_grid.unwrap_or_else(|| linked_by_all_pairs(space, places, distance))
 }
 
-/// [`linked`] over all pairs: each group is flooded from its first place.
+/// [`linked`] over all pairs.
 pub fn linked_by_all_pairs<const D: usize>(
     space: &Space<f64, D>,
     places: &[Vector<f64, D>],
     distance: f64,
 ) -> Vec<usize> {
-    let mut group = vec![0; places.len()];
+    flooded(places.len(), |i, j| are_linked(space, places[i], places[j], distance))
+}
+
+/// The groups of [`linked`] by any rule of who is linked with whom: each group is flooded from its first member.
+pub fn flooded(members: usize, linked: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    let mut group = vec![0; members];
     let mut groups = 0;
-    let mut alone: Vec<usize> = (0..places.len()).rev().collect();
+    let mut alone: Vec<usize> = (0..members).rev().collect();
     while let Some(first) = alone.pop() {
         let mut reached = vec![first];
         while let Some(i) = reached.pop() {
             group[i] = groups;
             alone.retain(|&j| {
-                let near = are_linked(space, places[i], places[j], distance);
+                let near = linked(i, j);
                 if near {
                     reached.push(j);
                 }
@@ -98,32 +100,218 @@ pub fn linked_by_grid<const D: usize>(
     places: &[Vector<f64, D>],
     distance: f64,
 ) -> Option<Vec<usize>> {
-    let grid = LiveGrid::new(space, distance, &columns(places))?;
-    // the parent of a place never stands after it: the root of a tree is its first place
-    let mut parent: Vec<usize> = (0..places.len()).collect();
+    let mut trees = Trees::new(places.len());
+    pairs_by_grid(space, places, distance, |i, j| trees.join(i, j)).then(|| trees.groups())
+}
+
+/// Calls `visit(i, j)` for each pair of places at most `distance` apart, once, in any order.
+pub fn pairs_within<const D: usize>(
+    space: &Space<f64, D>,
+    places: &[Vector<f64, D>],
+    distance: f64,
+    mut visit: impl FnMut(usize, usize),
+) {
+    if is_sparse(space, places, distance) && pairs_by_grid(space, places, distance, &mut visit) {
+        return;
+    }
+    for i in 0..places.len() {
+        for j in i + 1..places.len() {
+            if are_linked(space, places[i], places[j], distance) {
+                visit(i, j);
+            }
+        }
+    }
+}
+
+/// [`pairs_within`] over the cells of a grid. Nothing is called, and the answer is no, where a grid cannot serve.
+pub fn pairs_by_grid<const D: usize>(
+    space: &Space<f64, D>,
+    places: &[Vector<f64, D>],
+    distance: f64,
+    mut visit: impl FnMut(usize, usize),
+) -> bool {
+    let Some(grid) = LiveGrid::new(space, distance, &columns(places)) else { return false };
     for (i, &place) in places.iter().enumerate() {
         for run in grid.around(i) {
             let members = grid.members(run);
             for j in members.rows[..members.count].iter().map(|&row| row as usize).filter(|&j| j < i) {
                 if are_linked(space, place, places[j], distance) {
-                    let (a, b) = (root(&mut parent, i), root(&mut parent, j));
-                    parent[a.max(b)] = a.min(b);
+                    visit(j, i);
                 }
             }
         }
     }
-    let mut groups = 0;
-    let mut group = vec![0; places.len()];
-    for i in 0..places.len() {
-        let first = root(&mut parent, i);
+    true
+}
+
+/// The dense cluster of each member, `[members]`, numbered from 0 in the order of their first core member; `None`: noise.
+///
+/// A member is a core where at least `least` members, itself included, are near it. Cores that are near each other are in one
+/// cluster. A member near a core is in its cluster too; of several, in the one that comes first.
+/// `pairs` calls its argument for each pair that is near, once, whenever it is called.
+///
+/// M. Ester, H.-P. Kriegel, J. Sander, X. Xu (1996), A density-based algorithm for discovering clusters (DBSCAN), KDD 96.
+pub fn dense_clusters(
+    members: usize,
+    least: usize,
+    pairs: impl Fn(&mut dyn FnMut(usize, usize)),
+) -> Vec<Option<usize>> {
+    let mut near = vec![1usize; members];
+    pairs(&mut |i, j| {
+        near[i] += 1;
+        near[j] += 1;
+    });
+    let core = |i: usize| near[i] >= least;
+    let mut trees = Trees::new(members);
+    pairs(&mut |i, j| {
+        if core(i) && core(j) {
+            trees.join(i, j);
+        }
+    });
+    let mut cluster: Vec<Option<usize>> = vec![None; members];
+    let mut clusters = 0;
+    for i in (0..members).filter(|&i| core(i)) {
+        let first = trees.root(i);
         if first == i {
-            group[i] = groups;
-            groups += 1;
+            cluster[i] = Some(clusters);
+            clusters += 1;
         } else {
-            group[i] = group[first];
+            cluster[i] = cluster[first];
         }
     }
-    Some(group)
+    let mut border: Vec<Option<usize>> = vec![None; members];
+    pairs(&mut |i, j| {
+        for (one, other) in [(i, j), (j, i)] {
+            if core(one) && !core(other) {
+                border[other] = [border[other], cluster[one]].into_iter().flatten().min();
+            }
+        }
+    });
+    cluster.into_iter().zip(border).map(|(core, border)| core.or(border)).collect()
+}
+
+/// Distance and index of the `count` nearest others of each place, the nearest first (ties by index), `[places][count]`.
+/// `None` for fewer others.
+pub fn nearest_others<const D: usize>(
+    space: &Space<f64, D>,
+    places: &[Vector<f64, D>],
+    count: usize,
+) -> Option<Vec<(f64, u32)>> {
+    if places.len() <= count {
+        return None;
+    }
+    let by_grid = if places.len() > FEW { nearest_others_by_grid(space, places, count) } else { None };
+    by_grid.or_else(|| nearest_others_by(places.len(), count, |i, j| space.offset(places[i], places[j]).length()))
+}
+
+/// [`nearest_others`] over all pairs, for any distance.
+pub fn nearest_others_by(
+    members: usize,
+    count: usize,
+    distance: impl Fn(usize, usize) -> f64,
+) -> Option<Vec<(f64, u32)>> {
+    let mut nearest = Vec::with_capacity(members * count);
+    let mut others = Vec::with_capacity(members);
+    for i in 0..members {
+        others.clear();
+        others.extend((0..members).filter(|&j| j != i).map(|j| (distance(i, j), j as u32)));
+        take_nearest(&mut others, count, &mut nearest)?;
+    }
+    Some(nearest)
+}
+
+/// [`nearest_others`] over the cells of a grid. `None` where a grid cannot serve this space and these places.
+pub fn nearest_others_by_grid<const D: usize>(
+    space: &Space<f64, D>,
+    places: &[Vector<f64, D>],
+    count: usize,
+) -> Option<Vec<(f64, u32)>> {
+    let across: Vec<f64> = extents(space, places).into_iter().filter(|&extent| extent > 0.0).collect();
+    let share = across.iter().product::<f64>() * count as f64 / places.len() as f64;
+    let spacing = space::Real::powf(share, 1.0 / across.len() as f64);
+    let grid = LiveGrid::new(space, spacing, &columns(places)).filter(|_| spacing > 0.0)?;
+    let mut nearest = Vec::with_capacity(places.len() * count);
+    let mut others: Vec<(f64, u32)> = Vec::new();
+    for (i, &place) in places.iter().enumerate() {
+        let mut radius = spacing;
+        // what lies beyond the radius was not met: look again until enough lie well inside
+        loop {
+            others.clear();
+            let searched = radius.is_finite()
+                && grid.within(place, radius, |j, _, _| {
+                    if j as usize != i {
+                        others.push((space.offset(place, places[j as usize]).length(), j));
+                    }
+                });
+            if !searched {
+                others.clear();
+                let all = (0..places.len()).filter(|&j| j != i);
+                others.extend(all.map(|j| (space.offset(place, places[j]).length(), j as u32)));
+                break;
+            }
+            if others.iter().filter(|(distance, _)| *distance <= 0.999 * radius).count() >= count {
+                break;
+            }
+            radius *= 2.0;
+        }
+        take_nearest(&mut others, count, &mut nearest)?;
+    }
+    Some(nearest)
+}
+
+/// Moves the nearest `count` of some to the end of a list, in order; `None` for fewer.
+fn take_nearest(others: &mut [(f64, u32)], count: usize, to: &mut Vec<(f64, u32)>) -> Option<()> {
+    let order = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    if count < others.len() {
+        others.select_nth_unstable_by(count, order);
+    }
+    let nearest = others.get_mut(..count)?;
+    nearest.sort_unstable_by(order);
+    to.extend_from_slice(nearest);
+    Some(())
+}
+
+/// Trees of members that belong together. The parent of a member never stands after it: the root of a tree is its first
+/// member.
+struct Trees(Vec<usize>);
+
+impl Trees {
+    fn new(members: usize) -> Self {
+        Self((0..members).collect())
+    }
+    fn join(&mut self, i: usize, j: usize) {
+        let (a, b) = (self.root(i), self.root(j));
+        self.0[a.max(b)] = a.min(b);
+    }
+    /// The root of a tree, with the path to it halved.
+    fn root(&mut self, mut i: usize) -> usize {
+        while self.0[i] != i {
+            self.0[i] = self.0[self.0[i]];
+            i = self.0[i];
+        }
+        i
+    }
+    /// The tree of each member, numbered from 0 in the order of their first members.
+    fn groups(&mut self) -> Vec<usize> {
+        let mut groups = 0;
+        let mut group = vec![0; self.0.len()];
+        for i in 0..self.0.len() {
+            let first = self.root(i);
+            if first == i {
+                group[i] = groups;
+                groups += 1;
+            } else {
+                group[i] = group[first];
+            }
+        }
+        group
+    }
+}
+
+/// Whether the neighbourhood of a place, three cells of this size a side, is a small part of the whole: then a grid pays.
+fn is_sparse<const D: usize>(space: &Space<f64, D>, places: &[Vector<f64, D>], distance: f64) -> bool {
+    let cells: f64 = extents(space, places).iter().map(|extent| (extent / distance).max(1.0)).product();
+    places.len() > FEW && cells > 4.0 * 3.0f64.powi(D as i32)
 }
 
 fn are_linked<const D: usize>(
@@ -133,15 +321,6 @@ fn are_linked<const D: usize>(
     distance: f64,
 ) -> bool {
     space.offset(here, there).length() <= distance
-}
-
-/// The root of a tree, with the path to it halved.
-fn root(parent: &mut [usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    i
 }
 
 fn columns<const D: usize>(places: &[Vector<f64, D>]) -> Columns<f64, D> {
@@ -199,6 +378,16 @@ mod tests {
                         served += 1;
                     }
                     assert_eq!(nearest_distances(&space, &places), nearest);
+                    let to = |i: usize, j: usize| space.offset(places[i], places[j]).length();
+                    for count in [1, 6, 20].into_iter().filter(|&count| count < n) {
+                        let others = nearest_others_by(n, count, to);
+                        if let Some(by_grid) = nearest_others_by_grid(&space, &places, count) {
+                            assert_eq!(Some(&by_grid), others.as_ref(), "{count} of {n} in {space:?}");
+                            served += 1;
+                        }
+                        assert_eq!(nearest_others(&space, &places, count), others);
+                    }
+                    assert_eq!(nearest_others(&space, &places, n), None);
                     for distance in [0.004, 0.02, 0.3, 2.0, 25.0, 600.0] {
                         let groups = linked_by_all_pairs(&space, &places, distance);
                         if let Some(by_grid) = linked_by_grid(&space, &places, distance) {
@@ -238,6 +427,43 @@ mod tests {
         assert_eq!(linked(&Space::open(), &chain, 0.5), Vec::from_iter(0..300));
         let two = [[0.0], [9.0], [1.0], [8.0]].map(Vector);
         assert_eq!(linked(&Space::open(), &two, 2.0), [0, 1, 0, 1]);
+    }
+
+    /// Clusters as the paper puts it: a cluster grows from each core in turn, and takes whom no other has taken.
+    fn grown(members: usize, least: usize, near: &dyn Fn(usize, usize) -> bool) -> Vec<Option<usize>> {
+        let around = |i: usize| (0..members).filter(|&j| near(i, j)).collect::<Vec<_>>();
+        let mut cluster = vec![None; members];
+        let mut clusters = 0;
+        for start in 0..members {
+            if cluster[start].is_some() || around(start).len() < least {
+                continue;
+            }
+            let mut reached = vec![start];
+            while let Some(i) = reached.pop() {
+                if cluster[i].is_none() {
+                    cluster[i] = Some(clusters);
+                    if around(i).len() >= least {
+                        reached.extend(around(i));
+                    }
+                }
+            }
+            clusters += 1;
+        }
+        cluster
+    }
+
+    #[test]
+    fn dense_clusters_are_those_that_grow_from_cores() {
+        for space in [Space::open(), Space::periodic([30.0, 30.0])] {
+            for (n, least) in [(0, 3), (1, 1), (60, 3), (300, 3), (300, 4), (300, 6)] {
+                let places = scattered::<2>(n, 30.0);
+                for eps in [0.3, 1.5, 2.5, 40.0] {
+                    let found = dense_clusters(n, least, |visit| pairs_within(&space, &places, eps, visit));
+                    let near = |i: usize, j: usize| space.offset(places[i], places[j]).length() <= eps;
+                    assert_eq!(found, grown(n, least, &near), "{n} at {eps} in {space:?}");
+                }
+            }
+        }
     }
 
     #[test]

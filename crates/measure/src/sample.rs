@@ -1,9 +1,14 @@
 //! The members a metric is computed over, read once from a frame.
 
+use crate::domains;
 use crate::ground::{departure, geodesic, middle};
-use crate::near::{linked, nearest_distances};
+use crate::hull::{Hull, flat_hull};
+use crate::near::{
+    dense_clusters, flooded, linked, nearest_distances, nearest_others, nearest_others_by, pairs_within,
+};
 use crate::{Counted, Ground};
 use space::{Edge, Frame, GroupRange, Real, Space, Vector};
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 /// Directions whose mean is at most this long cancel each other, and have no mean direction.
@@ -27,9 +32,42 @@ pub struct Sample<const D: usize> {
     bodies: Vec<Option<Vector<f64, D>>>,
     /// Longitude and latitude, degrees; empty in the plane.
     places: Vec<[f64; 2]>,
-    distances: OnceLock<Option<Vec<f64>>>,
+    kept: Kept<D>,
+}
+
+/// Up to so many members all distances are kept; beyond, a grid is faster for what is near.
+const FEW: usize = 256;
+
+/// What several metrics need of one sample.
+#[derive(Debug)]
+struct Kept<const D: usize> {
+    to_centre: OnceLock<Option<Vec<f64>>>,
+    pairs: OnceLock<Vec<f64>>,
+    pair_mean_and_most: OnceLock<Option<(f64, f64)>>,
     nearest: OnceLock<Vec<f64>>,
+    others: OnceLock<(usize, Option<Vec<(f64, u32)>>)>,
     groups: OnceLock<(f64, Vec<usize>)>,
+    clusters: OnceLock<(f64, usize, Vec<Option<usize>>)>,
+    unwrapped: OnceLock<Option<Vec<Vector<f64, D>>>>,
+    hull: OnceLock<Option<Hull>>,
+    domains: OnceLock<Option<Vec<f64>>>,
+}
+
+impl<const D: usize> Kept<D> {
+    const fn nothing() -> Self {
+        Self {
+            to_centre: OnceLock::new(),
+            pairs: OnceLock::new(),
+            pair_mean_and_most: OnceLock::new(),
+            nearest: OnceLock::new(),
+            others: OnceLock::new(),
+            groups: OnceLock::new(),
+            clusters: OnceLock::new(),
+            unwrapped: OnceLock::new(),
+            hull: OnceLock::new(),
+            domains: OnceLock::new(),
+        }
+    }
 }
 
 impl<const D: usize> Sample<D> {
@@ -41,9 +79,7 @@ impl<const D: usize> Sample<D> {
             velocities: Vec::new(),
             bodies: Vec::new(),
             places: Vec::new(),
-            distances: OnceLock::new(),
-            nearest: OnceLock::new(),
-            groups: OnceLock::new(),
+            kept: Kept::nothing(),
         };
         sample.fill(&Ground::Plane(space), members.into_iter().map(|(position, velocity)| (position, velocity, None)));
         sample
@@ -59,7 +95,7 @@ impl<const D: usize> Sample<D> {
         self.velocities.clear();
         self.bodies.clear();
         self.places.clear();
-        (self.distances, self.nearest, self.groups) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        self.kept = Kept::nothing();
         self.space = match ground {
             Ground::Plane(space) => *space,
             Ground::Globe => Space::open(),
@@ -200,29 +236,203 @@ impl<const D: usize> Sample<D> {
     /// Distances to the centre of the group, `[len]`. `None` without members or without a centre.
     pub fn distances_to_centre(&self) -> Option<&[f64]> {
         let compute = || Some(self.from_centre(&self.positions)?.into_iter().map(Vector::length).collect());
-        self.distances.get_or_init(compute).as_deref()
+        self.kept.to_centre.get_or_init(compute).as_deref()
+    }
+    /// Positions as if there were no seam: on periodic axes offsets from the centre. `None` without members, or without a
+    /// centre on a periodic axis.
+    pub fn unwrapped(&self) -> Option<&[Vector<f64, D>]> {
+        let compute = || {
+            if !self.space.is_periodic() {
+                return Some(self.positions.clone());
+            }
+            let mut places = self.from_centre(&self.positions)?;
+            for (place, position) in places.iter_mut().zip(&self.positions) {
+                for a in (0..D).filter(|&a| self.space.periods()[a].is_none()) {
+                    place.0[a] = position.0[a];
+                }
+            }
+            Some(places)
+        };
+        self.kept.unwrapped.get_or_init(compute).as_deref().filter(|places| !places.is_empty())
+    }
+    /// The convex hull of [`Sample::unwrapped`] in two dimensions. `None` in others, and where all members are on one line.
+    pub fn hull(&self) -> Option<&Hull> {
+        self.kept.hull.get_or_init(|| if D == 2 { flat_hull(self.unwrapped()?) } else { None }).as_ref()
+    }
+    /// The domain of danger of each member within the convex hull, `[len]`, length^2; on a line from the first member to the last.
+    /// `None` without a hull, and in three dimensions.
+    pub fn domains_of_danger(&self) -> Option<&[f64]> {
+        let compute = || {
+            let places = self.unwrapped()?;
+            if D == 1 {
+                return Some(domains::on_line(Edge::Open, &Vec::from_iter(places.iter().map(|place| place.0[0]))));
+            }
+            let places: Vec<_> = places.iter().map(|place| Vector::of(&place.0)).collect();
+            let arena: Vec<_> = self.hull()?.corners.iter().map(|&corner| places[corner]).collect();
+            Some(domains::in_arena(&places, &arena))
+        };
+        self.kept.domains.get_or_init(compute).as_deref()
+    }
+    /// Distances between all members, `[len][len]`, where there are few of them.
+    fn pairs(&self) -> Option<&[f64]> {
+        let n = self.len();
+        let compute = || {
+            let mut pairs = vec![0.0; n * n];
+            if self.places.is_empty() {
+                let plain = !self.space.is_periodic();
+                for (row, &here) in pairs.chunks_exact_mut(n.max(1)).zip(&self.positions) {
+                    for (pair, &there) in row.iter_mut().zip(&self.positions) {
+                        *pair = if plain { there - here } else { self.space.offset(here, there) }.length();
+                    }
+                }
+            } else {
+                for i in 0..n {
+                    for j in i + 1..n {
+                        pairs[i * n + j] = self.distance(i, j);
+                        pairs[j * n + i] = pairs[i * n + j];
+                    }
+                }
+            }
+            pairs
+        };
+        (n <= FEW).then(|| &self.kept.pairs.get_or_init(compute)[..])
+    }
+    /// Calls `visit(i, j)` for each pair of members at most `distance` apart, once, in any order.
+    pub fn pairs_within(&self, distance: f64, visit: &mut dyn FnMut(usize, usize)) {
+        let n = self.len();
+        if let Some(pairs) = self.pairs() {
+            for i in 0..n {
+                let beyond = pairs[i * n..(i + 1) * n].iter().enumerate().skip(i + 1);
+                beyond.filter(|&(_, &pair)| pair <= distance).for_each(|(j, _)| visit(i, j));
+            }
+        } else if self.places.is_empty() {
+            pairs_within(&self.space, &self.positions, distance, visit);
+        } else {
+            let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+            all.filter(|&(i, j)| self.distance(i, j) <= distance).for_each(|(i, j)| visit(i, j));
+        }
+    }
+    /// Calls `visit(i, j, distance)` for each pair of members, once, in the order of `i`, then `j`.
+    pub fn each_pair(&self, mut visit: impl FnMut(usize, usize, f64)) {
+        let n = self.len();
+        for i in 0..n {
+            for j in i + 1..n {
+                let distance = self.pairs().map_or_else(|| self.distance(i, j), |pairs| pairs[i * n + j]);
+                visit(i, j, distance);
+            }
+        }
+    }
+    /// Mean and greatest distance of all pairs of members. `None` for fewer than two members.
+    ///
+    /// Its cost grows with the square of their number.
+    pub fn mean_and_greatest_pair_distance(&self) -> Option<(f64, f64)> {
+        let compute = || {
+            let (mut sum, mut most) = (0.0, 0.0f64);
+            let n = self.len();
+            if let Some(pairs) = self.pairs() {
+                for i in 0..n {
+                    for &pair in &pairs[i * n + i + 1..(i + 1) * n] {
+                        sum += pair;
+                        most = most.max(pair);
+                    }
+                }
+            } else {
+                self.each_pair(|_, _, distance| {
+                    sum += distance;
+                    most = most.max(distance);
+                });
+            }
+            let count = n as f64 * (n as f64 - 1.0) / 2.0;
+            (n > 1).then(|| (sum / count, most))
+        };
+        *self.kept.pair_mean_and_most.get_or_init(compute)
     }
     /// Distances to the nearest other member, `[len]`. `None` for fewer than two members.
     pub fn nearest_distances(&self) -> Option<&[f64]> {
-        (self.len() > 1).then(|| &self.nearest.get_or_init(|| nearest_distances(&self.space, &self.positions))[..])
-    }
-    /// Sizes of the groups that form when members at most `linking_distance` apart are linked, in the order of the
-    /// lowest id in each.
-    pub fn group_sizes(&self, linking_distance: f64) -> Vec<usize> {
-        let compute = || {
-            let mut sizes = Vec::new();
-            for group in linked(&self.space, &self.positions, linking_distance) {
-                if group == sizes.len() {
-                    sizes.push(0);
-                }
-                sizes[group] += 1;
+        let n = self.len();
+        let compute = || match self.pairs() {
+            Some(pairs) => {
+                let others = |i: usize| pairs[i * n..i * n + i].iter().chain(&pairs[i * n + i + 1..(i + 1) * n]);
+                (0..n).map(|i| others(i).copied().fold(f64::INFINITY, f64::min)).collect()
             }
-            sizes
+            None if self.places.is_empty() => nearest_distances(&self.space, &self.positions),
+            None => {
+                let others = |i: usize| (0..n).filter(move |&j| j != i).map(move |j| self.distance(i, j));
+                (0..n).map(|i| others(i).fold(f64::INFINITY, f64::min)).collect()
+            }
+        };
+        (n > 1).then(|| &self.kept.nearest.get_or_init(compute)[..])
+    }
+    /// Distance and index of the `count` nearest others of each member, the nearest first (ties by index), `[len][count]`.
+    /// `None` for fewer others.
+    pub fn nearest_others(&self, count: usize) -> Option<Cow<'_, [(f64, u32)]>> {
+        let n = self.len();
+        let compute = || match self.pairs() {
+            _ if n <= count => None,
+            Some(pairs) => nearest_others_by(n, count, |i, j| pairs[i * n + j]),
+            None if self.places.is_empty() => nearest_others(&self.space, &self.positions, count),
+            None => nearest_others_by(n, count, |i, j| self.distance(i, j)),
+        };
+        let (kept, others) = self.kept.others.get_or_init(|| (count, compute()));
+        if *kept == count { others.as_deref().map(Cow::Borrowed) } else { compute().map(Cow::Owned) }
+    }
+    /// The group of each member when members at most `linking_distance` apart are linked, `[len]`: numbered from 0 in the order
+    /// of the lowest id in each.
+    pub fn groups(&self, linking_distance: f64) -> Cow<'_, [usize]> {
+        let n = self.len();
+        let compute = || match self.pairs() {
+            Some(pairs) => flooded(n, |i, j| pairs[i * n + j] <= linking_distance),
+            None if self.places.is_empty() => linked(&self.space, &self.positions, linking_distance),
+            None => flooded(n, |i, j| self.distance(i, j) <= linking_distance),
         };
         // the metrics of a list nearly always share one distance
-        let (distance, sizes) = self.groups.get_or_init(|| (linking_distance, compute()));
-        if *distance == linking_distance { sizes.clone() } else { compute() }
+        let (distance, groups) = self.kept.groups.get_or_init(|| (linking_distance, compute()));
+        if *distance == linking_distance { Cow::Borrowed(groups) } else { Cow::Owned(compute()) }
     }
+    /// Sizes of the [`Sample::groups`].
+    pub fn group_sizes(&self, linking_distance: f64) -> Vec<usize> {
+        sizes(self.groups(linking_distance).iter().copied())
+    }
+    /// The members of the largest of the [`Sample::groups`], as a sample of their own; of equally large ones the first.
+    pub fn largest_group(&self, linking_distance: f64) -> Self {
+        let groups = self.groups(linking_distance);
+        let sizes = self.group_sizes(linking_distance);
+        let most = sizes.iter().copied().max();
+        let largest = sizes.iter().position(|&size| Some(size) == most);
+        let mut part = Self::new(self.space, []);
+        for i in (0..self.len()).filter(|&i| Some(groups[i]) == largest) {
+            part.positions.push(self.positions[i]);
+            part.velocities.push(self.velocities[i]);
+            part.bodies.push(self.bodies[i]);
+            part.places.extend(self.places.get(i));
+        }
+        part
+    }
+    /// The dense cluster of each member, `[len]`; `None`: noise. See [`dense_clusters`].
+    pub fn dense_clusters(&self, eps: f64, min_samples: usize) -> Cow<'_, [Option<usize>]> {
+        let compute = || dense_clusters(self.len(), min_samples, |visit| self.pairs_within(eps, visit));
+        let (distance, least, clusters) = self.kept.clusters.get_or_init(|| (eps, min_samples, compute()));
+        if (*distance, *least) == (eps, min_samples) { Cow::Borrowed(clusters) } else { Cow::Owned(compute()) }
+    }
+}
+
+/// How often each number from 0 on occurs.
+pub(crate) fn sizes(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut sizes = Vec::new();
+    for number in numbers {
+        if number >= sizes.len() {
+            sizes.resize(number + 1, 0);
+        }
+        sizes[number] += 1;
+    }
+    sizes
+}
+
+/// Mean and standard deviation (divisor n - 1) of numbers; `None` for fewer than two.
+pub(crate) fn spread(values: &[f64]) -> Option<(f64, f64)> {
+    let mean = mean(values.iter().copied())?;
+    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+    (values.len() > 1).then(|| (mean, (squares / (values.len() as f64 - 1.0)).sqrt()))
 }
 
 /// Mean of numbers; `None` of no numbers.

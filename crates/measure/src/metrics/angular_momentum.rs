@@ -22,6 +22,7 @@ impl Metric for AngularMomentum {
         unit: "1",
         range: Some((0.0, 1.0)),
         definition: "|mean_i unit(x_i - c) x h_i|,  c the centre,  all over members with a heading",
+        variant: "without sign, per member: unit vectors from the centre, unit headings",
         source: "Couzin et al. 2002 (group angular momentum)",
         counted: Counted::Headings,
         dimensions: &[2, 3],
@@ -29,19 +30,25 @@ impl Metric for AngularMomentum {
         edge: EdgeCases { empty: "undefined", one: "0", at_rest: "undefined" },
     };
     fn value<const D: usize>(&self, sample: &Sample<D>) -> Option<f64> {
-        if D < 2 {
-            return None;
-        }
-        let (positions, headings): (Vec<_>, Vec<_>) = sample.headings().unzip();
-        let offsets = sample.from_centre(&positions)?;
-        let widest = offsets.iter().map(|offset| offset.length()).fold(1.0, f64::max);
-        let moment = |(offset, heading): (&Vector<f64, D>, &Vector<f64, D>)| {
-            // what rounding leaves of the offset of a member at the centre has no direction
-            let out = if offset.length() <= f64::TINY * widest { Vector::ZERO } else { offset.unit() };
-            if D == 2 { Vector([0.0, 0.0, out.left().dot(*heading)]) } else { wide(out).cross3(wide(*heading)) }
-        };
-        mean_vector(offsets.iter().zip(&headings).map(moment)).map(Vector::length)
+        mean_vector(moments(sample)?.into_iter()).map(Vector::length)
     }
+}
+
+/// The moment of each member with a heading, `unit(x_i - c) x h_i`; in the plane along the third axis. `None` on a line, and
+/// without a centre.
+pub(super) fn moments<const D: usize>(sample: &Sample<D>) -> Option<Vec<Vector<f64, 3>>> {
+    if D < 2 {
+        return None;
+    }
+    let (positions, headings): (Vec<_>, Vec<_>) = sample.headings().unzip();
+    let offsets = sample.from_centre(&positions)?;
+    let widest = offsets.iter().map(|offset| offset.length()).fold(1.0, f64::max);
+    let moment = |(offset, heading): (&Vector<f64, D>, &Vector<f64, D>)| {
+        // what rounding leaves of the offset of a member at the centre has no direction
+        let out = if offset.length() <= f64::TINY * widest { Vector::ZERO } else { offset.unit() };
+        if D == 2 { Vector([0.0, 0.0, out.left().dot(*heading)]) } else { wide(out).cross3(wide(*heading)) }
+    };
+    Some(offsets.iter().zip(&headings).map(moment).collect())
 }
 
 /// The first three components.

@@ -2,20 +2,13 @@
 //! from 0.30 on.
 
 use super::group_count::LINKING_DISTANCE;
+use crate::metric::takes;
 use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
 use space::Real;
 
-/// `balance`.
-#[derive(Clone, Copy, Debug)]
-pub struct Balance {
-    /// See [`LINKING_DISTANCE`].
-    pub linking_distance: f64,
-}
-
-impl Default for Balance {
-    fn default() -> Self {
-        Self { linking_distance: LINKING_DISTANCE.default }
-    }
+takes! {
+    /// `balance`.
+    pub struct Balance { linking_distance: LINKING_DISTANCE }
 }
 
 impl Metric for Balance {
@@ -27,10 +20,11 @@ impl Metric for Balance {
         range: Some((0.0, 1.0)),
         definition: "H / ln G,  H = -sum_g p_g ln p_g,  p_g the shares of the G groups of group_count; undefined for fewer \
                      than two groups",
+        variant: "entropy over ln of the number of groups, not of members",
         source: "catalogue of models, section 5 (balance)",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],
-        parameters: &[LINKING_DISTANCE],
+        parameters: Self::PARAMETERS,
         edge: EdgeCases { empty: "undefined", one: "undefined", at_rest: "as ever" },
     };
     fn value<const D: usize>(&self, sample: &Sample<D>) -> Option<f64> {
@@ -38,13 +32,18 @@ impl Metric for Balance {
         if sizes.len() < 2 {
             return None;
         }
-        let share = |size: &usize| *size as f64 / sample.len() as f64;
-        let entropy: f64 = sizes.iter().map(share).map(|p| -p * Real::ln(p)).sum();
-        Some(entropy / Real::ln(sizes.len() as f64))
+        Some(entropy(&sizes)? / Real::ln(sizes.len() as f64))
     }
     fn parameter(&mut self, name: &str) -> Option<&mut f64> {
-        (name == LINKING_DISTANCE.name).then_some(&mut self.linking_distance)
+        self.place(name)
     }
+}
+
+/// `-sum p ln p` of the shares of groups by their sizes. `None` without members.
+pub(super) fn entropy(sizes: &[usize]) -> Option<f64> {
+    let members: usize = sizes.iter().sum();
+    let shares = sizes.iter().map(|&size| size as f64 / members as f64);
+    (members > 0).then(|| shares.map(|p| -p * Real::ln(p)).sum::<f64>().max(0.0))
 }
 
 #[cfg(test)]

@@ -17,6 +17,7 @@ impl Metric for Expanse {
         unit: "length",
         range: None,
         definition: "sqrt(mean_i |x_i - c|^2),  c the centre (circular mean on periodic axes)",
+        variant: "root of the mean square",
         source: "catalogue of models, section 5 (the root of the mean quadratic distance)",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],

@@ -1,26 +1,20 @@
 //! Into how many groups the members have split. More than one: fragmented.
 
-use crate::{Counted, EdgeCases, Metric, MetricCard, Parameter, Sample};
+use crate::metric::takes;
+use crate::{Bounds, Counted, EdgeCases, Metric, MetricCard, Parameter, Sample};
 
 /// The fragmentation threshold: the parameter that all metrics of groups share.
 pub const LINKING_DISTANCE: Parameter = Parameter {
     name: "linking_distance",
     unit: "length",
-    default: 25.0,
+    default: Some(25.0),
+    bounds: Bounds::Positive,
     about: "Members at most this far apart belong to one group (the fragmentation threshold).",
 };
 
-/// `group_count`.
-#[derive(Clone, Copy, Debug)]
-pub struct GroupCount {
-    /// See [`LINKING_DISTANCE`].
-    pub linking_distance: f64,
-}
-
-impl Default for GroupCount {
-    fn default() -> Self {
-        Self { linking_distance: LINKING_DISTANCE.default }
-    }
+takes! {
+    /// `group_count`.
+    pub struct GroupCount { linking_distance: LINKING_DISTANCE }
 }
 
 impl Metric for GroupCount {
@@ -31,17 +25,18 @@ impl Metric for GroupCount {
         unit: "1",
         range: None,
         definition: "number of connected components of the graph |d_ij| <= linking_distance",
+        variant: "single linkage, distance included",
         source: "catalogue of models, section 5 (group membership)",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],
-        parameters: &[LINKING_DISTANCE],
+        parameters: Self::PARAMETERS,
         edge: EdgeCases { empty: "0", one: "1", at_rest: "as ever" },
     };
     fn value<const D: usize>(&self, sample: &Sample<D>) -> Option<f64> {
         Some(sample.group_sizes(self.linking_distance).len() as f64)
     }
     fn parameter(&mut self, name: &str) -> Option<&mut f64> {
-        (name == LINKING_DISTANCE.name).then_some(&mut self.linking_distance)
+        self.place(name)
     }
 }
 

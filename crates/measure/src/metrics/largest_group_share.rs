@@ -1,19 +1,12 @@
 //! Which share of the members is in the largest group.
 
 use super::group_count::LINKING_DISTANCE;
+use crate::metric::takes;
 use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
 
-/// `largest_group_share`.
-#[derive(Clone, Copy, Debug)]
-pub struct LargestGroupShare {
-    /// See [`LINKING_DISTANCE`].
-    pub linking_distance: f64,
-}
-
-impl Default for LargestGroupShare {
-    fn default() -> Self {
-        Self { linking_distance: LINKING_DISTANCE.default }
-    }
+takes! {
+    /// `largest_group_share`.
+    pub struct LargestGroupShare { linking_distance: LINKING_DISTANCE }
 }
 
 impl Metric for LargestGroupShare {
@@ -24,10 +17,11 @@ impl Metric for LargestGroupShare {
         unit: "1",
         range: Some((0.0, 1.0)),
         definition: "max_g n_g / N,  n_g the sizes of the groups of group_count",
+        variant: "single linkage, distance included",
         source: "catalogue of models, section 5 (group membership)",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],
-        parameters: &[LINKING_DISTANCE],
+        parameters: Self::PARAMETERS,
         edge: EdgeCases { empty: "undefined", one: "1", at_rest: "as ever" },
     };
     fn value<const D: usize>(&self, sample: &Sample<D>) -> Option<f64> {
@@ -35,7 +29,7 @@ impl Metric for LargestGroupShare {
         Some(largest as f64 / sample.len() as f64)
     }
     fn parameter(&mut self, name: &str) -> Option<&mut f64> {
-        (name == LINKING_DISTANCE.name).then_some(&mut self.linking_distance)
+        self.place(name)
     }
 }
 

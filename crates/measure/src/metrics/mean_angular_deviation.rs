@@ -20,6 +20,7 @@ impl Metric for MeanAngularDeviation {
         range: None,
         definition: "mean_i of the angle between h_i and m = mean_j h_j,  over members with a heading; undefined where \
                      |m| <= 1e-6",
+        variant: "mean of the angles to the mean heading, in degrees",
         source: "Huth and Wissel 1992 (where it is called polarisation)",
         counted: Counted::Headings,
         dimensions: &[1, 2, 3],

@@ -15,6 +15,7 @@ impl Metric for MeanDistanceToCentre {
         unit: "length",
         range: None,
         definition: "mean_i |x_i - c|,  c the centre (circular mean on periodic axes)",
+        variant: "mean",
         source: "plain mean",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],

@@ -16,6 +16,7 @@ impl Metric for MeanSpeed {
         unit: "length/time",
         range: None,
         definition: "mean_i |v_i|,  over members with a velocity",
+        variant: "members at rest included",
         source: "plain mean",
         counted: Counted::Velocities,
         dimensions: &[1, 2, 3],

@@ -2,6 +2,7 @@
 //!
 //! Of the last frame of a run it is what the mean median distance (MMD) averages over runs.
 
+use crate::domains::median;
 use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
 
 /// `median_distance_to_centre`.
@@ -17,6 +18,7 @@ impl Metric for MedianDistanceToCentre {
         range: None,
         definition: "median_i |x_i - c|,  c the centre (circular mean on periodic axes); the mean of the two middle values \
                      of an even number",
+        variant: "median",
         source: "catalogue of models, section 5 (the MMD of one frame)",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],
@@ -24,11 +26,7 @@ impl Metric for MedianDistanceToCentre {
         edge: EdgeCases { empty: "undefined", one: "0", at_rest: "as ever" },
     };
     fn value<const D: usize>(&self, sample: &Sample<D>) -> Option<f64> {
-        let mut distances = sample.distances_to_centre()?.to_vec();
-        distances.sort_unstable_by(f64::total_cmp);
-        let middle = distances.len() / 2;
-        let upper = *distances.get(middle)?;
-        Some(if distances.len() % 2 == 1 { upper } else { (distances[middle - 1] + upper) / 2.0 })
+        median(sample.distances_to_centre()?.to_vec())
     }
 }
 

@@ -20,17 +20,48 @@ macro_rules! metrics {
 metrics! {
     polarisation::Polarisation;
     weighted_polarisation::WeightedPolarisation;
+    body_polarisation::BodyPolarisation;
     mean_angular_deviation::MeanAngularDeviation;
     angular_momentum::AngularMomentum;
+    signed_angular_momentum::SignedAngularMomentum;
+    hexatic_order::HexaticOrder;
+    local_hexatic_order::LocalHexaticOrder;
     nearest_neighbour_distance::NearestNeighbourDistance;
+    nearest_neighbour_distance_sd::NearestNeighbourDistanceSd;
+    nearest_neighbour_distance_max::NearestNeighbourDistanceMax;
+    kth_neighbour_distance::KthNeighbourDistance;
+    k_nearest_distance::KNearestDistance;
+    mean_pair_distance::MeanPairDistance;
+    max_pair_distance::MaxPairDistance;
+    hull_area::HullArea;
+    hull_perimeter::HullPerimeter;
+    hull_vertices::HullVertices;
+    hull_volume::HullVolume;
+    hull_surface::HullSurface;
+    elongation::Elongation;
     expanse::Expanse;
     mean_distance_to_centre::MeanDistanceToCentre;
     median_distance_to_centre::MedianDistanceToCentre;
     group_count::GroupCount;
     largest_group_share::LargestGroupShare;
+    largest_group_size::LargestGroupSize;
+    group_entropy::GroupEntropy;
     balance::Balance;
+    fragmented::Fragmented;
     stragglers::Stragglers;
+    dbscan_clusters::DbscanClusters;
+    dbscan_noise::DbscanNoise;
+    dbscan_largest::DbscanLargest;
+    view_groups_literal::ViewGroupsLiteral;
+    view_largest_share_literal::ViewLargestShareLiteral;
+    view_groups_mutual::ViewGroupsMutual;
+    view_largest_share_mutual::ViewLargestShareMutual;
     mean_speed::MeanSpeed;
+    speed_sd::SpeedSd;
+    group_speed::GroupSpeed;
+    overlapping_pairs::OverlappingPairs;
+    domain_of_danger_median::DomainOfDangerMedian;
+    domain_of_danger_max::DomainOfDangerMax;
 }
 
 /// The metric of an id, with its parameters at the defaults.

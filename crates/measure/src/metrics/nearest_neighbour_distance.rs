@@ -18,6 +18,7 @@ impl Metric for NearestNeighbourDistance {
         unit: "length",
         range: None,
         definition: "mean_i min_{j != i} |d_ij|,  d_ij = x_j - x_i (minimum image); two or more members",
+        variant: "mean over all members; between centres",
         source: "Clark and Evans 1954; catalogue of models, section 5",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],

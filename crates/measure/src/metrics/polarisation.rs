@@ -20,6 +20,7 @@ impl Metric for Polarisation {
         unit: "1",
         range: Some((0.0, 1.0)),
         definition: "|mean_i h_i|,  h_i = v_i/|v_i|,  over members with a heading",
+        variant: "of headings: every moving member counts alike",
         source: "Vicsek et al. 1995 (order parameter); Couzin et al. 2002 (group polarisation)",
         counted: Counted::Headings,
         dimensions: &[1, 2, 3],

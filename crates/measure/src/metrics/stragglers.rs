@@ -3,28 +3,22 @@
 //! The source counts those farther than 5 body lengths. A frame holds no bodies, so the distance here is a length: 5 units
 //! where nothing else is said, and 5 times the body length where that is not 1.
 
+use crate::metric::takes;
 use crate::sample::mean;
-use crate::{Counted, EdgeCases, Metric, MetricCard, Parameter, Sample};
+use crate::{Bounds, Counted, EdgeCases, Metric, MetricCard, Parameter, Sample};
 
 /// Beyond which distance a member counts as a straggler.
 pub const DISTANCE: Parameter = Parameter {
     name: "distance",
     unit: "length",
-    default: 5.0,
+    default: Some(5.0),
+    bounds: Bounds::Positive,
     about: "A member whose nearest neighbour is farther than this is a straggler.",
 };
 
-/// `stragglers`.
-#[derive(Clone, Copy, Debug)]
-pub struct Stragglers {
-    /// See [`DISTANCE`].
-    pub distance: f64,
-}
-
-impl Default for Stragglers {
-    fn default() -> Self {
-        Self { distance: DISTANCE.default }
-    }
+takes! {
+    /// `stragglers`.
+    pub struct Stragglers { distance: DISTANCE }
 }
 
 impl Metric for Stragglers {
@@ -35,10 +29,11 @@ impl Metric for Stragglers {
         unit: "1",
         range: None,
         definition: "share of members with min_{j != i} |d_ij| > distance; two or more members",
+        variant: "share of members, not their number",
         source: "catalogue of models, section 5 (as a share, not a number)",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],
-        parameters: &[DISTANCE],
+        parameters: Self::PARAMETERS,
         edge: EdgeCases { empty: "undefined", one: "undefined", at_rest: "as ever" },
     };
     fn value<const D: usize>(&self, sample: &Sample<D>) -> Option<f64> {
@@ -46,7 +41,7 @@ impl Metric for Stragglers {
         mean(sample.nearest_distances()?.iter().map(lost))
     }
     fn parameter(&mut self, name: &str) -> Option<&mut f64> {
-        (name == DISTANCE.name).then_some(&mut self.distance)
+        self.place(name)
     }
 }
 

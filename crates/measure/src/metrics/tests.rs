@@ -179,7 +179,8 @@ fn never_nan<R: Real, const D: usize>() {
             for space in [Space::open(), Space::walled([side; D]), Space::periodic([side; D])] {
                 let scene = Scene::<R, D>::new(space, &members);
                 for (card, value) in LIST.iter().zip(values(&all(), &scene)) {
-                    let fine = value.is_none_or(|value| value.is_finite() && value >= 0.0);
+                    let least = card.range.map_or(0.0, |range| range.0);
+                    let fine = value.is_none_or(|value| value.is_finite() && value >= least);
                     assert!(fine, "{} is {value:?} for {members:?} in {space:?}", card.id);
                 }
             }
@@ -262,6 +263,7 @@ impl Metric for BlindToTheSeam {
         unit: "",
         range: None,
         definition: "",
+        variant: "",
         source: "",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],
@@ -308,9 +310,11 @@ fn parameters_are_set_by_name_and_wrong_requests_explained() {
     for card in LIST {
         let Ok(mut metric) = find::<1>(card.id) else { continue };
         for parameter in card.parameters {
-            assert_eq!(metric.set(parameter.name, parameter.default), Ok(()));
+            assert_eq!(metric.set(parameter.name, parameter.default.unwrap_or(1.0)), Ok(()));
             for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-                assert!(metric.set(parameter.name, wrong).is_err_and(|e| e.to_string().contains("more than 0")));
+                let error = metric.set(parameter.name, wrong).err().map(|error| error.to_string());
+                let explained = error.is_some_and(|error| error.contains(&parameter.bounds.to_string()));
+                assert_eq!(explained, !parameter.bounds.allow(wrong), "{} of {}", parameter.name, card.id);
             }
         }
     }
@@ -362,6 +366,23 @@ fn gaps_in_tracks_are_left_out() {
     assert_eq!(Sample::whole(&gaps.frame()).count(Counted::Positions), 12);
 }
 
+/// The metrics that were computed with numpy; the others have their own references.
+const BY_NUMPY: [&str; 13] = [
+    "polarisation",
+    "weighted_polarisation",
+    "mean_angular_deviation",
+    "angular_momentum",
+    "nearest_neighbour_distance",
+    "expanse",
+    "mean_distance_to_centre",
+    "median_distance_to_centre",
+    "group_count",
+    "largest_group_share",
+    "balance",
+    "stragglers",
+    "mean_speed",
+];
+
 /// Groups and values computed independently with numpy 2.4.6 and scipy 1.17.1, in the textbook way: complex
 /// exponentials for circular means, arccos for angles, `cdist`-like matrices for distances,
 /// `scipy.sparse.csgraph.connected_components` for groups. Positions and velocities were drawn with
@@ -377,6 +398,9 @@ fn numpy<const D: usize>(space: Space<f64, D>, members: &Members<D>, parameters:
     let narrow = Scene::<f32, D>::new(Space { edges: narrow_edges }, members);
     for mut metric in all::<D>() {
         let id = metric.card().id;
+        if !BY_NUMPY.contains(&id) {
+            continue;
+        }
         for parameter in metric.card().parameters {
             let value = if parameter.name == "linking_distance" { linking_distance } else { straggling };
             assert_eq!(metric.set(parameter.name, value), Ok(()));

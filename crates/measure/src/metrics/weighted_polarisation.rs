@@ -18,6 +18,7 @@ impl Metric for WeightedPolarisation {
         unit: "1",
         range: Some((0.0, 1.0)),
         definition: "|sum_i v_i| / sum_i |v_i|,  over members with a velocity",
+        variant: "of velocities: the fast count for more",
         source: "the package trajectorytools, where it is called polarisation",
         counted: Counted::Velocities,
         dimensions: &[1, 2, 3],
