@@ -43,7 +43,7 @@ pub fn in_arena(places: &[Point], arena: &[Point]) -> Vec<f64> {
     let domain = |(i, &here): (usize, &Point)| {
         offsets.clear();
         offsets.extend(places.iter().enumerate().filter(|&(j, _)| j != i).map(|(_, &there)| there - here));
-        cell(arena.iter().map(|&corner| corner - here), &offsets, &mut scratch)
+        share_of(cell(arena.iter().map(|&corner| corner - here), &offsets, &mut scratch))
     };
     places.iter().enumerate().map(domain).collect()
 }
@@ -71,13 +71,19 @@ pub fn in_box(space: &Space<f64, 2>, places: &[Point]) -> Option<Vec<f64>> {
         };
         let ([left, right], [low, high]) = (ends(0), ends(1));
         let corners = [[left, low], [right, low], [right, high], [left, high]].map(Vector);
-        cell(corners.into_iter(), &offsets, &mut scratch)
+        share_of(cell(corners.into_iter(), &offsets, &mut scratch))
     };
     Some(places.iter().enumerate().map(domain).collect())
 }
 
-/// Area of the part of a convex arena that is nearer to the origin than to any of the others, by their offsets.
-fn cell(arena: impl Iterator<Item = Point>, others: &[Point], scratch: &mut Scratch) -> f64 {
+/// The area that each of those who share a cell has.
+fn share_of((cell, sharers): (Vec<Point>, f64)) -> f64 {
+    area(&cell) / sharers
+}
+
+/// The part of a convex arena that is nearer to the origin than to any of the others, by their offsets, as a polygon; and how many
+/// share it, the one at the origin included.
+pub(crate) fn cell(arena: impl Iterator<Item = Point>, others: &[Point], scratch: &mut Scratch) -> (Vec<Point>, f64) {
     let mut near = Vec::new();
     // fails only in dimensions other than one and two
     let _ = neighbours(others, scratch, &mut near);
@@ -90,23 +96,37 @@ fn cell(arena: impl Iterator<Item = Point>, others: &[Point], scratch: &mut Scra
             sharers += 1.0;
             continue;
         }
-        // how far a corner is beyond the line half way
-        let half = other.length_squared() / 2.0;
-        let beyond = |corner: Point| corner.dot(other) - half;
-        cut.clear();
-        for k in 0..polygon.len() {
-            let (here, next) = (polygon[k], polygon[(k + 1) % polygon.len()]);
-            let (a, b) = (beyond(here), beyond(next));
-            if a <= 0.0 {
-                cut.push(here);
-            }
-            if (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0) {
-                cut.push(here + (next - here) * (a / (a - b)));
-            }
-        }
+        // the line half way
+        cut_off(&polygon, other, other.length_squared() / 2.0, &mut cut);
         core::mem::swap(&mut polygon, &mut cut);
     }
-    area(&polygon) / sharers
+    (polygon, sharers)
+}
+
+/// The part of a convex polygon where `place . normal <= limit`, into `part`.
+fn cut_off(polygon: &[Point], normal: Point, limit: f64, part: &mut Vec<Point>) {
+    part.clear();
+    for (&here, &next) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        let (a, b) = (here.dot(normal) - limit, next.dot(normal) - limit);
+        if a <= 0.0 {
+            part.push(here);
+        }
+        if (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0) {
+            part.push(here + (next - here) * (a / (a - b)));
+        }
+    }
+}
+
+/// What two convex polygons have in common; the corners of both stand counter-clockwise.
+pub fn common(one: &[Point], other: &[Point]) -> Vec<Point> {
+    let mut polygon = one.to_vec();
+    let mut part = Vec::new();
+    for (&here, &next) in other.iter().zip(other.iter().cycle().skip(1)) {
+        let outward = -(next - here).left();
+        cut_off(&polygon, outward, here.dot(outward), &mut part);
+        core::mem::swap(&mut polygon, &mut part);
+    }
+    polygon
 }
 
 /// Area of a polygon whose corners stand counter-clockwise.

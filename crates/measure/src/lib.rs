@@ -33,12 +33,16 @@ pub mod hull;
 mod metric;
 pub mod metrics;
 pub mod near;
+pub mod over_time;
 mod per_frame;
 mod sample;
+mod track_metric;
 mod tracks;
+pub mod way_points;
 
 pub use ground::Ground;
-pub use metric::{Bounds, Counted, EdgeCases, Measure, MeasureError, Metric, MetricCard, Parameter};
+pub use metric::{Bounds, Counted, EdgeCases, Measure, MeasureError, Metric, MetricCard, Parameter, Takes};
 pub use per_frame::{PerFrame, per_frame};
 pub use sample::Sample;
+pub use track_metric::{Field, Kind, Listing, MeasureTracks, TrackCard, TrackMetric};
 pub use tracks::{Clock, Paths, Rows, Tracks, TracksError};

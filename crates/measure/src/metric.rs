@@ -86,25 +86,42 @@ impl Parameter {
     }
 }
 
+/// What takes parameters.
+pub trait Takes {
+    /// They.
+    const PARAMETERS: &'static [Parameter];
+    /// The place of a parameter, to be changed; `None` for any other name.
+    fn place(&mut self, name: &str) -> Option<&mut f64>;
+    /// A parameter that must be given and was not.
+    fn lacks(&self) -> Option<&'static Parameter>;
+}
+
 /// A metric that takes parameters: the struct, its defaults, the list of its parameters, and the place of each by its name.
 macro_rules! takes {
-    ($(#[$about:meta])* pub struct $metric:ident { $($field:ident: $parameter:expr),+ $(,)? }) => {
+    ($(#[$about:meta])* pub struct $metric:ident { $($field:ident: $parameter:expr),* $(,)? }) => {
         $(#[$about])*
         #[derive(Clone, Copy, Debug)]
         pub struct $metric {
-            $(#[doc = concat!("See the parameter `", stringify!($field), "` of the card.")] pub $field: f64,)+
+            $(#[doc = concat!("See the parameter `", stringify!($field), "` of the card.")] pub $field: f64,)*
         }
         impl Default for $metric {
             fn default() -> Self {
-                Self { $($field: $parameter.initial()),+ }
+                Self { $($field: $parameter.initial()),* }
             }
         }
-        impl $metric {
-            const PARAMETERS: &'static [$crate::Parameter] = &[$($parameter),+];
+        impl $crate::Takes for $metric {
+            const PARAMETERS: &'static [$crate::Parameter] = &[$($parameter),*];
+            #[allow(unused_variables, reason = "a metric may take nothing")]
             fn place(&mut self, name: &str) -> Option<&mut f64> {
                 $(if name == $parameter.name {
                     return Some(&mut self.$field);
-                })+
+                })*
+                None
+            }
+            fn lacks(&self) -> Option<&'static $crate::Parameter> {
+                $(if self.$field.is_nan() {
+                    return Some(const { &$parameter });
+                })*
                 None
             }
         }

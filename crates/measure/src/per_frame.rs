@@ -59,8 +59,7 @@ impl PerFrame {
 pub fn per_frame<const D: usize>(tracks: &Tracks<D>, metrics: &[Box<dyn Measure<D>>], workers: &Workers) -> PerFrame {
     let frames = tracks.frames().len();
     let blocks: Vec<OnceLock<PerFrame>> = (0..frames.div_ceil(BLOCK)).map(|_| OnceLock::new()).collect();
-    let samples: Vec<Mutex<Sample<D>>> =
-        (0..workers.threads()).map(|_| Mutex::new(Sample::new(space::Space::open(), []))).collect();
+    let samples: Vec<Mutex<Sample<D>>> = (0..workers.threads()).map(|_| Mutex::new(Sample::empty())).collect();
     workers.each(blocks.len(), |worker, block| {
         // each worker has a sample of its own: nobody waits here
         let mut sample = samples[worker].lock().unwrap_or_else(PoisonError::into_inner);

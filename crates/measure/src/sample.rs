@@ -84,6 +84,10 @@ impl<const D: usize> Sample<D> {
         sample.fill(&Ground::Plane(space), members.into_iter().map(|(position, velocity)| (position, velocity, None)));
         sample
     }
+    /// Nobody, in open space: to be filled.
+    pub fn empty() -> Self {
+        Self::new(Space::open(), [])
+    }
     /// Puts other members in place of these, by position, velocity and, where it is known, the direction of the body (a unit
     /// vector). The memory is used again.
     pub fn fill(
@@ -166,6 +170,10 @@ impl<const D: usize> Sample<D> {
     /// Positions, `[len]`, inside the box on periodic axes.
     pub fn positions(&self) -> &[Vector<f64, D>] {
         &self.positions
+    }
+    /// Velocities, `[len]`, where they are known.
+    pub fn known_velocities(&self) -> &[Option<Vector<f64, D>>] {
+        &self.velocities
     }
     /// The known velocities.
     pub fn velocities(&self) -> impl Iterator<Item = Vector<f64, D>> {

@@ -227,7 +227,7 @@ impl<const D: usize> Tracks<D> {
 
     /// The members of a frame (by its place in the list), in the order of individuals, for metrics of frames.
     pub fn sample(&self, frame: usize) -> Sample<D> {
-        let mut sample = Sample::new(space::Space::open(), []);
+        let mut sample = Sample::empty();
         self.sample_into(frame, &mut sample);
         sample
     }

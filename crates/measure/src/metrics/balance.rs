@@ -3,7 +3,7 @@
 
 use super::group_count::LINKING_DISTANCE;
 use crate::metric::takes;
-use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
+use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 use space::Real;
 
 takes! {

@@ -5,7 +5,7 @@
 use super::group_count::LINKING_DISTANCE;
 use crate::metric::takes;
 use crate::{Bounds, Parameter};
-use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
+use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 
 /// How near is near.
 pub const EPS: Parameter = Parameter {

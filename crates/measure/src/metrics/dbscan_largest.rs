@@ -3,7 +3,7 @@
 use super::dbscan_clusters::{EPS, MIN_SAMPLES};
 use crate::metric::takes;
 use crate::sample::sizes;
-use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
+use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 
 takes! {
     /// `dbscan_largest`.

@@ -2,7 +2,7 @@
 
 use super::dbscan_clusters::{EPS, MIN_SAMPLES};
 use crate::metric::takes;
-use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
+use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 
 takes! {
     /// `dbscan_noise`.

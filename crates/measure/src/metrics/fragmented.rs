@@ -2,7 +2,7 @@
 
 use super::group_count::LINKING_DISTANCE;
 use crate::metric::takes;
-use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
+use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 
 takes! {
     /// `fragmented`.

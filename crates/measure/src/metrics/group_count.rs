@@ -1,7 +1,7 @@
 //! Into how many groups the members have split. More than one: fragmented.
 
 use crate::metric::takes;
-use crate::{Bounds, Counted, EdgeCases, Metric, MetricCard, Parameter, Sample};
+use crate::{Bounds, Counted, EdgeCases, Metric, MetricCard, Parameter, Sample, Takes};
 
 /// The fragmentation threshold: the parameter that all metrics of groups share.
 pub const LINKING_DISTANCE: Parameter = Parameter {

@@ -3,7 +3,7 @@
 use super::kth_neighbour_distance::NEIGHBOURS;
 use crate::metric::takes;
 use crate::sample::mean;
-use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
+use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 
 takes! {
     /// `k_nearest_distance`.

@@ -3,7 +3,7 @@
 use crate::metric::takes;
 use crate::sample::mean;
 use crate::{Bounds, Parameter};
-use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
+use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 
 /// How many neighbours.
 pub const NEIGHBOURS: Parameter = Parameter {

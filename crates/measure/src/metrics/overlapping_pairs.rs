@@ -2,7 +2,7 @@
 
 use super::view_groups_literal::BODY_RADIUS;
 use crate::metric::takes;
-use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
+use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 
 takes! {
     /// `overlapping_pairs`.

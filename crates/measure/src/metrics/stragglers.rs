@@ -5,7 +5,7 @@
 
 use crate::metric::takes;
 use crate::sample::mean;
-use crate::{Bounds, Counted, EdgeCases, Metric, MetricCard, Parameter, Sample};
+use crate::{Bounds, Counted, EdgeCases, Metric, MetricCard, Parameter, Sample, Takes};
 
 /// Beyond which distance a member counts as a straggler.
 pub const DISTANCE: Parameter = Parameter {

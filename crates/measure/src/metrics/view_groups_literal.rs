@@ -2,7 +2,7 @@
 
 use crate::metric::takes;
 use crate::{Bounds, Parameter};
-use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
+use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 
 /// How far members see.
 pub const VIEW_RADIUS: Parameter = Parameter {

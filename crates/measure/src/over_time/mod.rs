@@ -1,0 +1,65 @@
+//! The metrics over time: one file each, one line each in the list below. What they find is a table whose columns their
+//! cards describe.
+
+use crate::{MeasureError, MeasureTracks, TrackCard, TrackMetric};
+use space::spelling::nearest;
+
+mod groups;
+mod lags;
+mod line;
+
+macro_rules! over_time {
+    ($($file:ident::$name:ident;)*) => {
+        $(pub mod $file;)*
+        /// The cards of all metrics over time, in the order of the list.
+        pub const LIST: &[&TrackCard] = &[$(&<$file::$name as TrackMetric>::CARD),*];
+        /// All metrics over time with their parameters at the defaults, in the order of the list.
+        pub fn all<const D: usize>() -> Vec<Box<dyn MeasureTracks<D>>> {
+            vec![$(Box::new($file::$name::default())),*]
+        }
+    };
+}
+
+over_time! {
+    mean_squared_displacement::MeanSquaredDisplacement;
+    relative_mean_squared_displacement::RelativeMeanSquaredDisplacement;
+    heading_autocorrelation::HeadingAutocorrelation;
+    velocity_correlation::VelocityCorrelation;
+    correlation_length::CorrelationLength;
+    radial_distribution::RadialDistribution;
+    speed::Speed;
+    acceleration::Acceleration;
+    path_curvature::PathCurvature;
+    coverage::Coverage;
+    domains_of_danger::DomainsOfDanger;
+    occupied_area::OccupiedArea;
+    group_overlap::GroupOverlap;
+    group_membership::GroupMembership;
+    collisions::Collisions;
+    leadership::Leadership;
+    group_events::GroupEvents;
+    motion_events::MotionEvents;
+    lane_order::LaneOrder;
+    line_crossings::LineCrossings;
+    flow::Flow;
+    classic_density::ClassicDensity;
+    voronoi_density::VoronoiDensity;
+    mean_median_distance::MeanMedianDistance;
+}
+
+/// The metric over time of an id, with its parameters at the defaults.
+///
+/// # Errors
+/// Where none has this id.
+pub fn find<const D: usize>(id: &str) -> Result<Box<dyn MeasureTracks<D>>, MeasureError> {
+    all::<D>().into_iter().find(|metric| metric.card().id == id).ok_or_else(|| MeasureError::UnknownMetric {
+        id: id.to_owned(),
+        nearest: nearest(id, LIST.iter().map(|card| card.id)),
+    })
+}
+
+#[cfg(test)]
+mod sketch;
+
+#[cfg(test)]
+mod tests;
