@@ -129,7 +129,6 @@ impl AnalyzeOptions {
             measure: Measured {
                 metrics: (!self.metrics.is_empty()).then(|| self.metrics.clone()),
                 parameters: Named::default(),
-                maximum_lag: None,
             },
         })
     }
@@ -295,6 +294,13 @@ fn summary(one: &Analysed, several: bool, out: &mut dyn Write) -> Result<(), Fau
         table.row(row);
     }
     write!(out, "{}", table.text())?;
+    for what in &one.undefined {
+        writeln!(out, "not measured: {what}")?;
+    }
+    if !one.over_time.is_empty() {
+        let ids: Vec<&str> = one.over_time.iter().map(|(card, _)| card.id).collect();
+        writeln!(out, "over time (tables in the folder of --out): {}", ids.join(", "))?;
+    }
     if !one.left_out.is_empty() {
         let named = |(id, open): &(&str, Vec<&str>)| format!("{id} ({})", open.join(", "));
         let list: Vec<String> = one.left_out.iter().map(named).collect();

@@ -7,7 +7,7 @@ use crate::tracks::clean::Flag;
 use crate::tracks::folder::Request;
 use crate::tracks::tables;
 use crate::with_tracks;
-use measure::{Counted, Ground, MetricCard, Tracks};
+use measure::{Counted, Ground, Listing, MetricCard, TrackCard, Tracks};
 use space::{Edge, Vector};
 
 /// Points of a line over time; more frames are averaged.
@@ -33,6 +33,7 @@ pub fn page(request: &Request<'_>, all: &[Analysed]) -> Page {
         figures.push(over_time(card, &one_unit));
         figures.extend(distribution(card, &one_unit));
     }
+    figures.extend(over_time_charts(all));
     let mut csv = Vec::new();
     let values: usize = all.iter().map(|one| one.measured.positions.len() * (one.cards.len() + 7)).sum();
     let mut downloads = vec![Download {
@@ -48,6 +49,7 @@ pub fn page(request: &Request<'_>, all: &[Analysed]) -> Page {
             csv: String::from_utf8(csv).unwrap_or_default(),
         });
     }
+    downloads.extend(over_time_tables(all));
     Page {
         title: request.file.title.clone(),
         lead: paragraphs(&request.file.about),
@@ -77,13 +79,18 @@ pub fn averages(one: &Analysed, metric: usize) -> (Option<Average>, Option<Avera
     (all, rest.filter(|rest| Some(*rest) != all))
 }
 
+/// The unit of time behind a number of them.
+fn time_word(understood: &crate::tracks::Understood) -> &str {
+    if understood.time_unit == "frame" { "frames" } else { &understood.time_unit }
+}
+
 fn facts(one: &Analysed, several: bool) -> Vec<Fact> {
     let of = if several { format!(", {}", one.recording.name) } else { String::new() };
     let fact = |label: &str, value: String| Fact { label: format!("{label}{of}"), value };
     let understood = &one.recording.understood;
     let mut facts = vec![
         fact("Individuals", understood.individuals.to_string()),
-        fact("Frames", format!("{}, {} {}", understood.frames, short(understood.duration), understood.time_unit)),
+        fact("Frames", format!("{} in {} {}", understood.frames, short(understood.duration), time_word(understood))),
         fact("Positions", format!("{}, {} % missing", understood.positions, short(100.0 * understood.missing))),
     ];
     if !one.cleaned.flags.is_empty() {
@@ -131,6 +138,7 @@ fn methods(one: &Analysed, several: bool) -> Vec<String> {
     let velocities = "Velocities are backward differences of positions, known where an individual was found in both \
                       frames; averages are over the frames in which a metric is defined, with their standard deviation.";
     paragraphs.push(velocities.to_owned());
+    paragraphs.extend(one.undefined.iter().map(|what| format!("Not measured: {what}.")));
     if !one.left_out.is_empty() {
         let named = |(id, open): &(&str, Vec<&str>)| format!("{id} ({})", open.join(", "));
         let list: Vec<String> = one.left_out.iter().map(named).collect();
@@ -242,6 +250,92 @@ fn distribution(card: &MetricCard, of: &[(&Analysed, usize)]) -> Option<Figure> 
         y: Axis { label: "share of frames".into(), unit: "1".into(), range: None },
         lines: of.iter().map(line).collect(),
     }))
+}
+
+/// The metrics over time whose tables are a line: over a lag, a distance, or time.
+fn over_time_charts(all: &[Analysed]) -> Vec<Figure> {
+    let mut figures = Vec::new();
+    for card in measure::over_time::LIST {
+        let at = |name: &str| card.fields.iter().position(|field| field.name == name);
+        let across = match (at("lag"), at("r_low").zip(at("r_high")), at("t")) {
+            (Some(lag), ..) => vec![lag],
+            (_, Some((low, high)), _) => vec![low, high],
+            (.., Some(time)) if at("event").is_none() && !card.id.ends_with("_events") => vec![time],
+            _ => continue,
+        };
+        let last = across[across.len() - 1];
+        let Some(up) = (last + 1..card.fields.len()).find(|&k| card.fields[k].kind == measure::Kind::Number) else {
+            continue;
+        };
+        let (x, y) = (card.fields[across[0]], card.fields[up]);
+        let mut by_unit: Vec<((String, String), Vec<&Analysed>)> = Vec::new();
+        for one in all.iter().filter(|one| listing(one, card).is_some_and(|listing| listing.len() > 1)) {
+            let key = (tables::unit_of(one, x.unit), tables::unit_of(one, y.unit));
+            match by_unit.iter_mut().find(|(known, _)| *known == key) {
+                Some((_, list)) => list.push(one),
+                None => by_unit.push((key, vec![one])),
+            }
+        }
+        for ((x_unit, y_unit), of) in by_unit {
+            let line = |one: &&Analysed| {
+                let columns = listing(one, card).map_or(&[][..], |listing| &listing.columns);
+                let mean = |row: usize| across.iter().map(|&k| columns[k][row]).sum::<f64>() / across.len() as f64;
+                Line {
+                    name: one.recording.name.clone(),
+                    x: (0..columns[up].len()).map(mean).collect(),
+                    y: columns[up].iter().map(|value| Some(*value).filter(|value| value.is_finite())).collect(),
+                }
+            };
+            let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+            let label = if across.len() > 1 { "distance".to_owned() } else { x.name.replace('_', " ") };
+            figures.push(Figure::Lines(Lines {
+                id: format!("{}_{}", card.id, of[0].units.length),
+                title: card.title.into(),
+                about: format!("{}. {}.", words(card.definition), words(card.variant)),
+                x: Axis { label: if label == "t" { "time".into() } else { label }, unit: x_unit, range: None },
+                y: Axis { label: y.name.replace('_', " "), unit: y_unit, range: None },
+                lines: of.iter().map(line).collect(),
+            }));
+        }
+    }
+    figures
+}
+
+fn listing<'a>(one: &'a Analysed, card: &TrackCard) -> Option<&'a Listing> {
+    one.over_time.iter().find(|(own, _)| own.id == card.id).map(|(_, listing)| listing)
+}
+
+/// The tables of metrics over time, as far as they are small.
+fn over_time_tables(all: &[Analysed]) -> Vec<Download> {
+    let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
+    let mut downloads = Vec::new();
+    for card in measure::over_time::LIST {
+        let with = || all.iter().filter_map(|one| Some((one, listing(one, card)?)));
+        let rows: usize = with().map(|(_, listing)| listing.len()).sum();
+        if rows == 0 || (rows * card.fields.len() * 10) as u64 > DOWNLOADED {
+            continue;
+        }
+        let names: Vec<&str> = card.fields.iter().map(|field| field.name).collect();
+        let mut csv = format!("recording,{}\n", names.join(","));
+        for (one, listing) in with() {
+            for row in 0..listing.len() {
+                csv += &quoted(&one.recording.name);
+                for (field, column) in card.fields.iter().zip(&listing.columns) {
+                    let label = tables::label(one, field, column[row]);
+                    csv.push(',');
+                    match (label.is_empty(), column[row].is_finite()) {
+                        (false, _) => csv += &quoted(&label),
+                        (true, true) => csv += &column[row].to_string(),
+                        (true, false) => {}
+                    }
+                }
+                csv.push('\n');
+            }
+        }
+        let about = format!("{}: {}.", card.title, card.definition.split_whitespace().collect::<Vec<_>>().join(" "));
+        downloads.push(Download { file: format!("{}.csv", card.id), about, csv });
+    }
+    downloads
 }
 
 /// The averages as CSV.

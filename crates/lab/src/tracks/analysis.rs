@@ -6,7 +6,7 @@ use super::{Recording, Table, wrong};
 use crate::scenario::Units;
 use crate::store::StoreError;
 use crate::with_tracks;
-use measure::{Measure, MetricCard, PerFrame, Tracks, per_frame};
+use measure::{Listing, Measure, MetricCard, Parameter, PerFrame, TrackCard, Tracks, over_time, per_frame};
 use space::parallel::Workers;
 use std::sync::Arc;
 
@@ -24,6 +24,10 @@ pub struct Analysed {
     pub measured: PerFrame,
     /// The same without what was flagged, where something was.
     pub unflagged: Option<PerFrame>,
+    /// Metrics over time, each with its table.
+    pub over_time: Vec<(&'static TrackCard, Listing)>,
+    /// Why a metric over time has no table, though nothing was wrong with what was asked.
+    pub undefined: Vec<String>,
     /// Metrics that were not measured since nobody gave their parameters, with the names of these.
     pub left_out: Vec<(&'static str, Vec<&'static str>)>,
 }
@@ -68,8 +72,9 @@ pub fn analyse(recording: Recording, file: &TracksFile, workers: &Arc<Workers>) 
         Table::Space(tracks) => cleaned_of(tracks, &asked).map(|(t, done)| (Table::Space(t), done)),
     }
     .map_err(failed)?;
-    let (cards, measured, unflagged, left_out) = with_tracks!(&table, tracks => {
-        let (metrics, left_out) = chosen(tracks, file)?;
+    let (cards, measured, unflagged, left_out, over) = with_tracks!(&table, tracks => {
+        let (metrics, mut left_out) = chosen(tracks, file)?;
+        let over = measured_over_time(tracks, file, &mut left_out)?;
         let measured = per_frame(tracks, &metrics, workers);
         let unflagged = if cleaned.flags.is_empty() {
             None
@@ -77,10 +82,11 @@ pub fn analyse(recording: Recording, file: &TracksFile, workers: &Arc<Workers>) 
             let rest = clean::without_flagged(tracks, &cleaned).map_err(failed)?;
             Some(per_frame(&rest, &metrics, workers))
         };
-        (metrics.iter().map(|metric| metric.card()).collect(), measured, unflagged, left_out)
+        (metrics.iter().map(|metric| metric.card()).collect(), measured, unflagged, left_out, over)
     });
+    let (over_time, undefined) = over;
     let recording = Recording { name, path, table, understood };
-    Ok(Analysed { recording, cleaned, units, cards, measured, unflagged, left_out })
+    Ok(Analysed { recording, cleaned, units, cards, measured, unflagged, over_time, undefined, left_out })
 }
 
 fn cleaned_of<const D: usize>(
@@ -90,41 +96,117 @@ fn cleaned_of<const D: usize>(
     if *asked == Cleaning::default() { Ok((tracks, Cleaned::default())) } else { clean::clean(tracks, asked) }
 }
 
-/// The metrics that are measured, and those left out for want of a parameter.
+/// Metrics that want a parameter, with its name.
+type LeftOut = Vec<(&'static str, Vec<&'static str>)>;
+
+/// Ids of all metrics, of frames and over time, with their parameters.
+pub fn known() -> impl Iterator<Item = (&'static str, &'static [Parameter])> {
+    let frames = measure::metrics::LIST.iter().map(|card| (card.id, card.parameters));
+    frames.chain(over_time::LIST.iter().map(|card| (card.id, card.parameters)))
+}
+
+/// The parameters that the user has to give: those without a default, and those with a default that is a length, a time or
+/// a speed, which fits no recording in particular.
+fn open(parameters: &'static [Parameter], file: &TracksFile) -> Vec<&'static str> {
+    let given = |name: &str| file.measure.parameters.0.iter().any(|(other, _)| other == name);
+    let plain = |unit: &str| matches!(unit, "" | "1" | "deg" | "rad" | "frames");
+    let wanting = |p: &&Parameter| !given(p.name) && (p.default.is_none() || !plain(p.unit));
+    parameters.iter().filter(wanting).map(|p| p.name).collect()
+}
+
+/// The metrics of frames that are measured, and those left out for want of a parameter.
 fn chosen<const D: usize>(
     _: &Tracks<D>,
     file: &TracksFile,
-) -> Result<(Vec<Box<dyn Measure<D>>>, Vec<(&'static str, Vec<&'static str>)>), StoreError> {
-    let parameters = &file.measure.parameters.0;
-    let given = |name: &str| parameters.iter().any(|(other, _)| other == name);
-    let (mut ids, mut left_out) = (Vec::new(), Vec::new());
-    for card in measure::metrics::LIST {
+) -> Result<(Vec<Box<dyn Measure<D>>>, LeftOut), StoreError> {
+    let (mut metrics, mut left_out) = (Vec::new(), Vec::new());
+    for mut metric in measure::metrics::all::<D>() {
+        let card = metric.card();
         if !card.dimensions.contains(&D) {
+            check_dimensions::<D>(card.id, file)?;
             continue;
         }
-        let open: Vec<&'static str> = card.parameters.iter().map(|p| p.name).filter(|name| !given(name)).collect();
-        match &file.measure.metrics {
-            Some(asked) if asked.iter().any(|id| id == card.id) => ids.push(card.id),
-            Some(_) => {}
-            None if open.is_empty() => ids.push(card.id),
-            None => left_out.push((card.id, open)),
+        if wanted(card.id, card.parameters, file, &mut left_out) {
+            set(file, card.parameters, |name, value| metric.set(name, value))?;
+            metrics.push(metric);
         }
-    }
-    let refused = |text: String| StoreError::Refused(text);
-    for id in file.measure.metrics.iter().flatten() {
-        if !ids.contains(&id.as_str()) {
-            return Err(refused(format!("`{id}` is not defined in {D} dimensions")));
-        }
-    }
-    let mut metrics = Vec::new();
-    for id in ids {
-        let mut metric = measure::metrics::find::<D>(id).map_err(|error| refused(error.to_string()))?;
-        for (name, value) in parameters {
-            if metric.card().parameters.iter().any(|parameter| parameter.name == name) {
-                metric.set(name, *value).map_err(|error| refused(error.to_string()))?;
-            }
-        }
-        metrics.push(metric);
     }
     Ok((metrics, left_out))
+}
+
+/// Whether a metric is to be measured; one that wants a parameter and was not asked for is noted.
+fn wanted(id: &'static str, parameters: &'static [Parameter], file: &TracksFile, left_out: &mut LeftOut) -> bool {
+    match &file.measure.metrics {
+        Some(asked) => asked.iter().any(|other| other == id),
+        None => {
+            let open = open(parameters, file);
+            let whole = open.is_empty();
+            if !whole {
+                left_out.push((id, open));
+            }
+            whole
+        }
+    }
+}
+
+fn check_dimensions<const D: usize>(id: &str, file: &TracksFile) -> Result<(), StoreError> {
+    if file.measure.metrics.iter().flatten().any(|asked| asked == id) {
+        return Err(StoreError::Refused(format!("`{id}` is not defined in {D} dimensions")));
+    }
+    Ok(())
+}
+
+/// Sets the parameters that a metric has and the user gave.
+fn set(
+    file: &TracksFile,
+    known: &[Parameter],
+    mut set: impl FnMut(&str, f64) -> Result<(), measure::MeasureError>,
+) -> Result<(), StoreError> {
+    let own = file.measure.parameters.0.iter().filter(|(name, _)| known.iter().any(|p| p.name == name));
+    for (name, value) in own {
+        set(name, *value).map_err(|error| StoreError::Refused(error.to_string()))?;
+    }
+    Ok(())
+}
+
+/// Positions beyond which metrics over time are measured on request only.
+const OVER_TIME: usize = 1_000_000;
+
+/// Metrics over time. Where no longest lag was given it is a quarter of the recording.
+fn measured_over_time<const D: usize>(
+    tracks: &Tracks<D>,
+    file: &TracksFile,
+    left_out: &mut LeftOut,
+) -> Result<(Vec<(&'static TrackCard, Listing)>, Vec<String>), StoreError> {
+    let (mut listings, mut undefined) = (Vec::new(), Vec::new());
+    let asked = file.measure.metrics.is_some();
+    if !asked && tracks.len() > OVER_TIME {
+        undefined.push(format!("metrics over time are measured on request where there are more than {OVER_TIME} positions"));
+        return Ok((listings, undefined));
+    }
+    let quarter = tracks.interval().map(|interval| (tracks.frames().len() as f64 / 4.0).floor().max(1.0) * interval);
+    for mut metric in over_time::all::<D>() {
+        let card = metric.card();
+        if !card.dimensions.contains(&D) {
+            check_dimensions::<D>(card.id, file)?;
+            continue;
+        }
+        let lag = card.parameters.iter().any(|p| p.name == "lags") && open(card.parameters, file) == ["max_lag"];
+        let mut noted = Vec::new();
+        let wanted = wanted(card.id, card.parameters, file, &mut noted) || (lag && !asked);
+        if !wanted {
+            left_out.extend(noted);
+            continue;
+        }
+        set(file, card.parameters, |name, value| metric.set(name, value))?;
+        if let Some(quarter) = quarter.filter(|_| lag) {
+            metric.set("max_lag", quarter).map_err(|error| StoreError::Refused(error.to_string()))?;
+        }
+        match metric.on(tracks) {
+            Ok(listing) => listings.push((card, listing)),
+            Err(error) if asked => return Err(StoreError::Refused(error.to_string())),
+            Err(error) => undefined.push(error.to_string()),
+        }
+    }
+    Ok((listings, undefined))
 }

@@ -7,7 +7,6 @@ use crate::file::{Desk, Form, Named, Node, Problem, Problems, Rule, Shape, Sourc
 use crate::scenario::build::{self, Wrong};
 use crate::{form, words};
 use std::path::{Path, PathBuf};
-use swarm::parameters::Range;
 
 /// A commented file to start from.
 pub const TEMPLATE: &str = include_str!("template.toml");
@@ -98,12 +97,11 @@ form! {
 form! {
     /// What is measured.
     pub struct Measured {
-        /// Metrics by their ids, as `flockworks metrics` lists them. Left out: all that need no parameter, or one given here.
+        /// Metrics by their ids, as `flockworks metrics` lists them. Left out: all that need no distance, time or speed, or
+        /// one given here; of metrics over time, where there are up to a million positions.
         metrics: Option<Vec<String>> = none, "", Any;
         /// Parameters of metrics, by name: each holds for every metric that has it.
         parameters: Named<f64> = [Named::default()], "", Any;
-        /// Longest lag of displacements and of correlations in time; left out, a quarter of the recording.
-        maximum_lag: Option<f64> = none, "time", Positive;
     }
 }
 
@@ -121,7 +119,7 @@ form! {
         /// Cleaning, the same for all.
         clean: Clean = [Clean { interpolate: None, smooth: None, greatest_speed: None, swaps: false }], "", Any;
         /// What is measured.
-        measure: Measured = [Measured { metrics: None, parameters: Named::default(), maximum_lag: None }], "", Any;
+        measure: Measured = [Measured { metrics: None, parameters: Named::default() }], "", Any;
     }
 }
 
@@ -235,22 +233,21 @@ pub fn check(file: &TracksFile) -> Vec<Wrong> {
             wrongs.push(Wrong::new("clean.smooth.order", what, "too high"));
         }
     }
+    let known = || super::analysis::known().map(|(id, _)| id);
     for id in file.measure.metrics.iter().flatten() {
-        if !measure::metrics::LIST.iter().any(|card| card.id == id) {
-            let near = super::meant(id, measure::metrics::LIST.iter().map(|card| card.id));
-            let what = format!("no metric is called `{id}`{near}");
+        if !known().any(|known| known == id) {
+            let what = format!("no metric is called `{id}`{}", super::meant(id, known()));
             wrongs.push(Wrong::new("measure.metrics", what, "not a metric").help("`flockworks metrics` lists them"));
         }
     }
-    let range = Range::Any;
+    let known = || super::analysis::known().flat_map(|(_, parameters)| parameters.iter().map(|p| p.name));
     for (name, value) in &file.measure.parameters.0 {
-        let mut known = measure::metrics::LIST.iter().flat_map(|card| card.parameters.iter().map(|p| p.name));
-        if !known.clone().any(|other| other == name) {
-            let near = super::meant(name, &mut known);
-            let what = format!("no metric has a parameter `{name}`{near}");
-            wrongs.push(Wrong::new(format!("measure.parameters.{name}"), what, "not a parameter"));
-        } else if !range.holds(*value) {
-            wrongs.push(Wrong::new(format!("measure.parameters.{name}"), "not a finite number", "expected a number"));
+        let path = format!("measure.parameters.{name}");
+        if !known().any(|other| other == name) {
+            let what = format!("no metric has a parameter `{name}`{}", super::meant(name, known()));
+            wrongs.push(Wrong::new(path, what, "not a parameter"));
+        } else if !value.is_finite() {
+            wrongs.push(Wrong::new(path, format!("`{name}` must be a finite number"), "expected a number"));
         }
     }
     wrongs
@@ -264,7 +261,7 @@ pub fn text(file: &TracksFile) -> String {
         about: String::new(),
         recording: Vec::new(),
         clean: Clean { interpolate: None, smooth: None, greatest_speed: None, swaps: false },
-        measure: Measured { metrics: None, parameters: Named::default(), maximum_lag: None },
+        measure: Measured { metrics: None, parameters: Named::default() },
     };
     let mut out = format!("kind = \"tracks\"\ntitle = {}\n", toml(&Tree::Text(file.title.clone())));
     if !file.about.is_empty() {

@@ -24,6 +24,9 @@ fn open(path: &Path) -> Result<SerializedFileReader<File>, StoreError> {
 }
 
 fn damaged(path: &Path, error: &ParquetError) -> StoreError {
+    if let Some((_, name)) = error.to_string().split_once("Disabled feature at compile time: ") {
+        return wrong(path, &format!("it is compressed by {name}; write it with zstd, snappy, gzip or lz4"));
+    }
     wrong(path, &format!("a damaged or truncated Parquet file: {error}"))
 }
 

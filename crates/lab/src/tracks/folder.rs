@@ -116,6 +116,9 @@ pub fn write(out: &Path, request: &Request<'_>, all: &[Analysed]) -> Result<(), 
     let headings = tables::events(all);
     let blocks = each(&|run| tables::event_columns(&all[run], run), &headings);
     folder.write(EVENTS, |file| join(file, &headings, &notes, blocks.into_iter()).map(|_| ()))?;
+    let headings = tables::over_time();
+    let blocks = each(&|run| tables::over_time_columns(&all[run], run), &headings);
+    folder.write(tables::OVER_TIME, |file| join(file, &headings, &notes, blocks.into_iter()).map(|_| ()))?;
     let html = crate::report::html(&of_tracks::page(request, all));
     folder.write(REPORT, |file| {
         file.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &out.join(REPORT), error))

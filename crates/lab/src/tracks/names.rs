@@ -1,7 +1,7 @@
 //! Names of columns that tables of tracks are known to have, and units that names and comments carry.
 
 use super::text::Head;
-use super::{Ask, wrong};
+use super::{Ask, meant, wrong};
 use crate::store::StoreError;
 
 /// What a column can be, by the word that `--columns` knows it by, with the names it is known to have elsewhere.
@@ -159,8 +159,7 @@ fn named(head: &Head, names: &[String], role: &str, name: &str) -> Result<usize,
     let number = name.parse::<usize>().ok().filter(|&number| number >= 1 && number <= names.len());
     let found = names.iter().position(|other| other == name).or_else(|| names.iter().position(|n| plain(n) == plain(name)));
     found.or(number.map(|number| number - 1)).ok_or_else(|| {
-        let near = space::spelling::nearest(name, names.iter().map(String::as_str));
-        let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        let near = meant(name, names.iter().map(String::as_str));
         let there = shown(names);
         wrong(&head.path, &format!("no column `{name}` for --columns {role}={name}; there are {there}{near}"))
     })

@@ -52,16 +52,19 @@ impl RunFolder {
         let axes = AXES[..dimensions].iter().map(|axis| need(axis)).collect::<Result<Vec<_>, _>>()?;
         let velocity = AXES[..dimensions].iter().map(|axis| at(&format!("v{axis}"))).collect::<Option<Vec<_>>>();
         let table = Table::open(&self.path.join(TRAJECTORY))?;
+        // places on the earth are kept beside those in the plane
+        let globe = at("longitude").zip(at("latitude"));
+        let (axes, velocity) = globe.map_or((axes, velocity), |(east, north)| (vec![east, north], None));
         let unit = table.headings().iter().find(|heading| heading.name == "x").map(|heading| heading.unit.clone());
-        let places = vec![Place { who: Who::Column(need("id")?), points: vec![Point::at(axes)], velocity }];
+        let places = vec![Place { who: Who::Column(at("individual").map_or_else(|| need("id"), Ok)?), points: vec![Point::at(axes)], velocity }];
         Ok(Plan {
             layout: "run",
             frame: Some(need("frame")?),
             time: Some(Clock { column: need("t")?, stamps: false }),
-            geographic: unit.as_deref() == Some("deg"),
+            geographic: globe.is_some(),
             places,
-            unit: unit.filter(|unit| unit != "deg"),
-            notes: vec!["velocities are those of the run".to_owned()],
+            unit,
+            notes: if globe.is_some() { Vec::new() } else { vec!["velocities are those of the folder".to_owned()] },
             names,
             ..Plan::default()
         })

@@ -1,12 +1,14 @@
 //! The tables that an analysis leaves: tracks, metrics and events.
 
 use super::analysis::Analysed;
+use super::clean::Flag;
 use crate::run::tables::AXES;
 use crate::store::StoreError;
 use crate::store::export::{csv_names, csv_rows};
 use crate::store::table::{Heading, Kind, Values, block};
 use crate::with_tracks;
-use measure::{Ground, MetricCard, Tracks};
+use measure::{Field, Ground, Kind as Of, MetricCard, Tracks};
+use std::collections::HashMap;
 use std::io::Write;
 use std::sync::Arc;
 
@@ -211,22 +213,117 @@ pub fn events(all: &[Analysed]) -> Vec<Heading> {
     ]
 }
 
-/// The events of a recording: what was flagged.
+/// The events of a recording in the order of time: what was flagged, and what groups did.
 pub fn event_columns(one: &Analysed, run: usize) -> Vec<Values> {
-    use super::clean::Flag;
-    let flags = &one.cleaned.flags;
-    let words = [Flag::ImpossibleSpeed, Flag::IdentitySwap];
-    let place = |flag: Flag| words.iter().position(|&word| word == flag).unwrap_or(0) as u16;
-    with_tracks!(&one.recording.table, tracks => vec![
-        Values::Whole(vec![run as i32; flags.len()]),
-        Values::Long(flags.iter().map(|&(_, frame, _)| tracks.frames()[frame]).collect()),
-        Values::Double(flags.iter().map(|&(_, frame, _)| tracks.times()[frame]).collect()),
-        Values::Word(
-            flags.iter().map(|&(.., flag)| place(flag)).collect(),
-            Arc::new(words.map(|word| word.word().to_owned()).to_vec()),
-        ),
-        Values::Long(flags.iter().map(|&(row, ..)| i64::from(tracks.individuals()[row])).collect()),
-    ])
+    let mut words: Vec<String> = [Flag::ImpossibleSpeed, Flag::IdentitySwap].map(|flag| flag.word().to_owned()).to_vec();
+    let mut rows: Vec<(i64, f64, u16, i64)> = with_tracks!(&one.recording.table, tracks => {
+        let row = |&(row, frame, flag): &(usize, usize, Flag)| {
+            let word = u16::from(flag == Flag::IdentitySwap);
+            (tracks.frames()[frame], tracks.times()[frame], word, i64::from(tracks.individuals()[row]))
+        };
+        one.cleaned.flags.iter().map(row).collect()
+    });
+    for (card, listing) in one.over_time.iter().filter(|(card, _)| card.id.ends_with("_events")) {
+        let at = |name: &str| card.fields.iter().position(|field| field.name == name);
+        let (Some(frame), Some(time)) = (at("frame"), at("t")) else { continue };
+        let event = at("event");
+        for row in 0..listing.len() {
+            let label = event.map_or_else(|| card.id.to_owned(), |event| label(one, &card.fields[event], listing.columns[event][row]));
+            let word = words.iter().position(|word| *word == label).unwrap_or_else(|| {
+                words.push(label);
+                words.len() - 1
+            });
+            rows.push((listing.columns[frame][row] as i64, listing.columns[time][row], word as u16, -1));
+        }
+    }
+    rows.sort_by_key(|row| row.0);
+    vec![
+        Values::Whole(vec![run as i32; rows.len()]),
+        Values::Long(rows.iter().map(|row| row.0).collect()),
+        Values::Double(rows.iter().map(|row| row.1).collect()),
+        Values::Word(rows.iter().map(|row| row.2).collect(), Arc::new(words)),
+        Values::Long(rows.iter().map(|row| row.3).collect()),
+    ]
+}
+
+/// What a number of a field stands for, in words; empty where it is a number.
+pub fn label(one: &Analysed, field: &Field, value: f64) -> String {
+    let place = value as usize;
+    match field.kind {
+        Of::Individual if value < 0.0 => "all".to_owned(),
+        Of::Individual => {
+            with_tracks!(&one.recording.table, tracks => tracks.names().get(place).cloned().unwrap_or_default())
+        }
+        Of::Group => {
+            with_tracks!(&one.recording.table, tracks => tracks.group_names().get(place).cloned().unwrap_or_default())
+        }
+        Of::Label(words) => words.get(place).map_or_else(String::new, |&word| word.to_owned()),
+        Of::Number | Of::Count | Of::Frame => String::new(),
+    }
+}
+
+/// A unit of a field as a recording writes it.
+pub fn unit_of(one: &Analysed, unit: &str) -> String {
+    let unit = match unit.strip_suffix('s') {
+        Some(before) if before.is_empty() || before.ends_with('/') => format!("{before}time"),
+        _ => unit.to_owned(),
+    };
+    one.units.of(&unit)
+}
+
+/// Name of the table of metrics over time.
+pub const OVER_TIME: &str = "over_time.parquet";
+
+/// Headings of the metrics over time: a row for each number.
+pub fn over_time() -> Vec<Heading> {
+    vec![
+        Heading::new("run", "1", "Number of the recording, from 0.", Kind::Whole),
+        Heading::new("group", "", "Name of the recording.", Kind::Word),
+        Heading::new("metric", "", "The metric.", Kind::Word),
+        Heading::new("row", "1", "Row of its table, from 0.", Kind::Long),
+        Heading::new("field", "", "Column of its table.", Kind::Word),
+        Heading::new("unit", "", "Unit of the column.", Kind::Word),
+        Heading::new("value", "", "The number.", Kind::Double),
+        Heading::new("label", "", "What the number stands for, of individuals, groups and events.", Kind::Word),
+    ]
+}
+
+/// The metrics over time of a recording.
+pub fn over_time_columns(one: &Analysed, run: usize) -> Vec<Values> {
+    let mut lists: [Vec<String>; 4] = Default::default();
+    let mut index: [HashMap<String, u16>; 4] = Default::default();
+    let mut word = |list: usize, text: String| {
+        *index[list].entry(text).or_insert_with_key(|text| {
+            lists[list].push(text.clone());
+            (lists[list].len() - 1).min(usize::from(u16::MAX)) as u16
+        })
+    };
+    let (mut metric, mut row, mut field, mut unit, mut value, mut named) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for (card, listing) in &one.over_time {
+        for r in 0..listing.len() {
+            for (of, column) in card.fields.iter().zip(&listing.columns) {
+                metric.push(word(0, card.id.to_owned()));
+                row.push(r as i64);
+                field.push(word(1, of.name.to_owned()));
+                unit.push(word(2, unit_of(one, of.unit)));
+                value.push(column[r]);
+                named.push(word(3, label(one, of, column[r])));
+            }
+        }
+    }
+    let count = metric.len();
+    let [metrics, fields, units, labels] = lists.map(Arc::new);
+    vec![
+        Values::Whole(vec![run as i32; count]),
+        Values::Word(vec![0; count], Arc::new(vec![one.recording.name.clone()])),
+        Values::Word(metric, metrics),
+        Values::Long(row),
+        Values::Word(field, fields),
+        Values::Word(unit, units),
+        Values::Double(value),
+        Values::Word(named, labels),
+    ]
 }
 
 /// Writes the metrics of all recordings as CSV: one line of names, a line for each frame of each.

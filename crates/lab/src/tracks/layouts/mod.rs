@@ -13,7 +13,7 @@ pub(crate) mod trex;
 mod wide;
 
 use super::text::Head;
-use super::{Ask, wrong};
+use super::{Ask, meant, wrong};
 use crate::store::StoreError;
 
 /// A layout of tables.
@@ -151,8 +151,7 @@ pub fn plan(head: &Head, ask: &Ask) -> Result<Plan, StoreError> {
             let found = LIST.iter().find(|layout| layout.id == id);
             let found = found.ok_or_else(|| {
                 let ids = LIST.iter().map(|layout| layout.id);
-                let near = space::spelling::nearest(id, ids.clone());
-                let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                let near = meant(id, ids.clone());
                 let ids: Vec<&str> = ids.collect();
                 StoreError::Refused(format!("no layout is called `{id}`{near}; there are auto, {}", ids.join(", ")))
             })?;
@@ -193,8 +192,7 @@ fn chosen_points(head: &Head, ask: &Ask, parts: &[(String, Point)], of: &str) ->
         Some(name) => {
             let found = parts.iter().find(|(part, _)| part.eq_ignore_ascii_case(name));
             found.map(|(_, point)| vec![point.clone()]).ok_or_else(|| {
-                let near = space::spelling::nearest(name, names.iter().map(String::as_str));
-                let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                let near = meant(name, names.iter().map(String::as_str));
                 let there = super::names::shown(&names);
                 wrong(&head.path, &format!("{of} has no body part `{name}`; there are {there}{near}"))
             })
