@@ -287,7 +287,7 @@ fn summary(one: &Analysed, several: bool, out: &mut dyn Write) -> Result<(), Fau
         };
         let sd = if a.sd.is_finite() { short(a.sd) } else { String::new() };
         let mut row = vec![card.id.into(), short(a.mean), sd, short(a.least), short(a.greatest)];
-        row.extend([one.units.of(card.unit), a.frames.to_string()]);
+        row.extend([tables::unit_of(one, card.unit), a.frames.to_string()]);
         if flagged {
             row.push(short(rest.unwrap_or(a).mean));
         }
@@ -302,10 +302,18 @@ fn summary(one: &Analysed, several: bool, out: &mut dyn Write) -> Result<(), Fau
         writeln!(out, "over time (tables in the folder of --out): {}", ids.join(", "))?;
     }
     if !one.left_out.is_empty() {
-        let named = |(id, open): &(&str, Vec<&str>)| format!("{id} ({})", open.join(", "));
-        let list: Vec<String> = one.left_out.iter().map(named).collect();
-        let how = "--set measure.parameters.NAME=VALUE";
-        writeln!(out, "not measured, for want of a parameter ({how}): {}", list.join(", "))?;
+        writeln!(out, "not measured, for want of a parameter (--set measure.parameters.NAME=VALUE):")?;
+        let mut by_name: Vec<(String, Vec<&str>)> = Vec::new();
+        for (id, open) in &one.left_out {
+            let names = open.join(", ");
+            match by_name.iter_mut().find(|(known, _)| *known == names) {
+                Some((_, ids)) => ids.push(id),
+                None => by_name.push((names, vec![id])),
+            }
+        }
+        for (names, ids) in by_name {
+            writeln!(out, "  {names}: {}", ids.join(", "))?;
+        }
     }
     writeln!(out)?;
     Ok(())

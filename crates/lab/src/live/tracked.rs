@@ -54,7 +54,7 @@ impl Tracked {
         let step = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
         let step = if step.is_finite() { step } else { 1.0 };
         let unit = |key: &str| about.pointer(&format!("/units/{key}")).cloned().unwrap_or(Json::Null);
-        let rate = if unit("time") == "s" { (1.0 / step).clamp(1.0, 60.0) } else { 20.0 };
+        let rate = if unit("time") == "s" { (1.0 / step).clamp(10.0, 60.0) } else { 20.0 };
         let (list, all) = metrics_of(&metrics, recording)?;
         let ends = |key: &str| about.get(key).cloned().unwrap_or(Json::Null);
         let scene = json!({
@@ -158,18 +158,11 @@ fn places(
     Ok(places)
 }
 
-/// The metrics of a recording as the scene lists them, and the message `metrics_all`.
+/// The metrics of a recording that are defined somewhere, as the scene lists them, and the message `metrics_all`.
 fn metrics_of(table: &Table, recording: usize) -> Result<(Json, Json), StoreError> {
     let cards: Vec<(usize, &measure::MetricCard)> = measure::metrics::LIST
         .iter()
         .filter_map(|card| Some((table.column(card.id)?, *card)))
-        .collect();
-    let list: Json = cards
-        .iter()
-        .map(|&(at, card)| {
-            let range = card.range.map(|(low, high)| [low, high]);
-            json!({ "id": card.id, "title": card.title, "unit": table.headings()[at].unit, "range": range })
-        })
         .collect();
     let mut wanted = vec![column(table, "run")?, column(table, "t")?, column(table, "group")?];
     wanted.extend(cards.iter().map(|&(at, _)| at));
@@ -186,6 +179,15 @@ fn metrics_of(table: &Table, recording: usize) -> Result<(Json, Json), StoreErro
             }
         }
     }
+    let defined = |k: &usize| values[*k].iter().any(Option::is_some);
+    let defined: Vec<usize> = (0..cards.len()).filter(defined).collect();
+    let about = |&k: &usize| {
+        let (at, card) = cards[k];
+        let range = card.range.map(|(low, high)| [low, high]);
+        json!({ "id": card.id, "title": card.title, "unit": table.headings()[at].unit, "range": range })
+    };
+    let list = defined.iter().map(about).collect();
+    let values: Vec<&Vec<Option<f64>>> = defined.iter().map(|&k| &values[k]).collect();
     let all = json!({ "is": "metrics_all", "t": times, "groups": [{ "group": name, "values": values }] });
     Ok((list, all))
 }

@@ -97,7 +97,7 @@ fn facts(one: &Analysed, several: bool) -> Vec<Fact> {
         facts.push(fact("Flagged positions", one.cleaned.flags.len().to_string()));
     }
     for (k, card) in one.cards.iter().enumerate() {
-        let unit = one.units.of(card.unit);
+        let unit = tables::unit_of(one, card.unit);
         let (all, rest) = averages(one, k);
         let Some(all) = all else { continue };
         let rest = rest.map_or_else(String::new, |rest| format!("; without flagged {}", written(&rest, &unit)));
@@ -138,6 +138,11 @@ fn methods(one: &Analysed, several: bool) -> Vec<String> {
     let velocities = "Velocities are backward differences of positions, known where an individual was found in both \
                       frames; averages are over the frames in which a metric is defined, with their standard deviation.";
     paragraphs.push(velocities.to_owned());
+    let never = |k: &usize| one.measured.values[*k].iter().all(|value| !value.is_finite());
+    let never: Vec<&str> = (0..one.cards.len()).filter(never).map(|k| one.cards[k].id).collect();
+    if !never.is_empty() {
+        paragraphs.push(format!("Undefined in every frame: {}.", never.join(", ")));
+    }
     paragraphs.extend(one.undefined.iter().map(|what| format!("Not measured: {what}.")));
     if !one.left_out.is_empty() {
         let named = |(id, open): &(&str, Vec<&str>)| format!("{id} ({})", open.join(", "));
@@ -154,7 +159,10 @@ fn charts(all: &[Analysed]) -> Vec<(&'static MetricCard, Vec<(&Analysed, usize)>
         let mut by_unit: Vec<((String, &str), Vec<(&Analysed, usize)>)> = Vec::new();
         for one in all {
             let Some(k) = one.cards.iter().position(|own| own.id == card.id) else { continue };
-            let key = (one.units.of(card.unit), one.units.time.as_str());
+            if one.measured.values[k].iter().all(|value| !value.is_finite()) {
+                continue;
+            }
+            let key = (tables::unit_of(one, card.unit), one.units.time.as_str());
             match by_unit.iter_mut().find(|(known, _)| *known == key) {
                 Some((_, list)) => list.push((one, k)),
                 None => by_unit.push((key, vec![(one, k)])),
@@ -202,7 +210,7 @@ fn over_time(card: &MetricCard, of: &[(&Analysed, usize)]) -> Figure {
         title: card.title.into(),
         about: abouts.join(". ").replace("..", "."),
         x: Axis { label: "time".into(), unit: units.time.clone(), range: None },
-        y: Axis { label: card.title.to_lowercase(), unit: units.of(card.unit), range: card.range },
+        y: Axis { label: card.title.to_lowercase(), unit: tables::unit_of(of[0].0, card.unit), range: card.range },
         lines,
     })
 }
@@ -221,26 +229,32 @@ fn thinned(times: &[f64], values: &[f64]) -> (Vec<f64>, Vec<Option<f64>>, usize)
 
 /// How often a metric has which values, over the frames.
 fn distribution(card: &MetricCard, of: &[(&Analysed, usize)]) -> Option<Figure> {
-    let units = &of[0].0.units;
     let values = || of.iter().flat_map(|&(one, k)| &one.measured.values[k]).copied().filter(|value| value.is_finite());
     let (low, high) = values().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     // one value needs no picture
     if values().count() < BINS / 2 || low >= high {
         return None;
     }
-    let (low, high) = card.range.map_or((low, high), |(least, most)| (least.min(low), most.max(high)));
-    let width = (high - low) / BINS as f64;
+    let whole = high - low < BINS as f64 && values().all(|value| value.fract() == 0.0);
+    let (low, high) = match card.range {
+        // of counts, each has a bin
+        _ if whole => (low - 0.5, high + 0.5),
+        Some((least, most)) => (least.min(low), most.max(high)),
+        None => (low, high),
+    };
+    let bins = if whole { (high - low) as usize } else { BINS };
+    let width = (high - low) / bins as f64;
     let line = |&(one, k): &(&Analysed, usize)| {
         let there: Vec<f64> = one.measured.values[k].iter().copied().filter(|value| value.is_finite()).collect();
-        let mut shares = vec![0.0; BINS];
-        there.iter().for_each(|value| shares[(((value - low) / width) as usize).min(BINS - 1)] += 1.0);
+        let mut shares = vec![0.0; bins];
+        there.iter().for_each(|value| shares[(((value - low) / width) as usize).min(bins - 1)] += 1.0);
         Line {
             name: one.recording.name.clone(),
-            x: (0..BINS).map(|k| low + (k as f64 + 0.5) * width).collect(),
+            x: (0..bins).map(|k| low + (k as f64 + 0.5) * width).collect(),
             y: shares.iter().map(|count| (!there.is_empty()).then(|| count / there.len() as f64)).collect(),
         }
     };
-    let unit = units.of(card.unit);
+    let unit = tables::unit_of(of[0].0, card.unit);
     let bin = if unit == "1" { short(width) } else { format!("{} {unit}", short(width)) };
     Some(Figure::Lines(Lines {
         id: chart_id(card, of, "_distribution"),
@@ -349,7 +363,7 @@ fn summary_csv(all: &[Analysed]) -> String {
             let (rest, frames) = rest.map_or_else(Default::default, |rest| (cell(rest.mean), rest.frames.to_string()));
             let name = format!("\"{}\"", one.recording.name.replace('"', "\"\""));
             let numbers = [a.mean, a.sd, a.least, a.greatest].map(cell).join(",");
-            text += &format!("{name},{},{},{numbers},{},{rest},{frames}\n", card.id, one.units.of(card.unit), a.frames);
+            text += &format!("{name},{},{},{numbers},{},{rest},{frames}\n", card.id, tables::unit_of(one, card.unit), a.frames);
         }
     }
     text

@@ -174,7 +174,7 @@ pub fn metrics(all: &[Analysed]) -> Vec<Heading> {
     ];
     headings.extend(COUNTS.iter().map(|(name, about)| Heading::new(name, "1", about, Kind::Long)));
     for card in cards(all) {
-        headings.push(Heading::new(card.id, &all[0].units.of(card.unit), card.definition, Kind::Double));
+        headings.push(Heading::new(card.id, &unit_of(&all[0], card.unit), card.definition, Kind::Double));
     }
     headings
 }
@@ -262,8 +262,9 @@ pub fn label(one: &Analysed, field: &Field, value: f64) -> String {
     }
 }
 
-/// A unit of a field as a recording writes it.
+/// A unit of a metric or a field as a recording writes it: s where times are in s, `length^D` in its dimensions.
 pub fn unit_of(one: &Analysed, unit: &str) -> String {
+    let unit = &unit.replace("^D", &format!("^{}", one.recording.understood.extent.len()));
     let unit = match unit.strip_suffix('s') {
         Some(before) if before.is_empty() || before.ends_with('/') => format!("{before}time"),
         _ => unit.to_owned(),
