@@ -4,9 +4,8 @@ use crate::analyze::{AnalyzeOptions, analyze};
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
-use crate::files::{
-    self, CompletionsOptions, ExplainOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions, SchemaOptions,
-};
+use crate::files::{self, CompletionsOptions, ExplainOptions, ExportOptions, KindOptions, ManOptions, SchemaOptions};
+use crate::metrics::{MetricsOptions, metrics};
 use crate::models::{ModelsOptions, models};
 use crate::run::{self, CheckOptions, ReportOptions, RunOptions};
 use crate::step::{StepOptions, step};
@@ -97,7 +96,7 @@ pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
         Command::Explain(options) => files::explain(options, out).map(|()| 0),
         Command::Report(options) => run::report(options, out).map(|()| 0),
         Command::Export(options) => files::export(options, out).map(|()| 0),
-        Command::Metrics(options) => files::metrics(options, out).map(|()| 0),
+        Command::Metrics(options) => metrics(options, out).map(|()| 0),
         Command::Completions(options) => files::completions(options, out).map(|()| 0),
         Command::Man(options) => files::man(options, out).map(|()| 0),
         Command::Step(options) => step(options, out).map(|()| 0),

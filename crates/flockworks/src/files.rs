@@ -1,10 +1,9 @@
-//! `flockworks new`, `schema`, `metrics`, `export`, `completions`, `man`: what helps with files.
+//! `flockworks new`, `schema`, `export`, `completions`, `man`: what helps with files.
 
 use crate::command::Line;
 use crate::fault::{Fault, hint, wrong};
 use crate::kinds;
 use crate::run::read_back;
-use crate::table::Table;
 use clap::{Args, CommandFactory, ValueEnum};
 use lab::run::{EVENTS, METRICS, TRAJECTORY};
 use lab::store::folder::whole_file;
@@ -37,25 +36,6 @@ pub struct SchemaOptions {
     /// Form of the output.
     #[arg(long, value_enum, default_value = "json")]
     pub format: SchemaForm,
-}
-
-/// Form of a list of metrics.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum MetricsForm {
-    /// For reading in a terminal.
-    Text,
-    /// Markdown.
-    Md,
-}
-
-/// Options of `metrics`.
-#[derive(Args, Debug)]
-pub struct MetricsOptions {
-    /// A metric's id, for all there is to know about it; without it, a table of all metrics.
-    pub id: Option<String>,
-    /// Form of the output.
-    #[arg(long, value_enum, default_value = "text")]
-    pub format: MetricsForm,
 }
 
 /// A form in which tables can be had.
@@ -129,75 +109,6 @@ pub fn schema(options: &SchemaOptions, out: &mut dyn Write) -> Result<(), Fault>
         SchemaForm::Json => writeln!(out, "{}", serde_json::to_string_pretty(&kind.schema()).unwrap_or_default())?,
     }
     Ok(())
-}
-
-/// Prints the table of metrics, or one metric's card.
-///
-/// # Errors
-/// An unknown id, or a reader that went away.
-pub fn metrics(options: &MetricsOptions, out: &mut dyn Write) -> Result<(), Fault> {
-    let list = measure::metrics::LIST;
-    let Some(id) = &options.id else {
-        let mut table = Table::new(&["id", "title", "unit", "dimensions", "definition"]);
-        for card in list {
-            let dimensions: Vec<String> = card.dimensions.iter().map(ToString::to_string).collect();
-            let first = card.definition.lines().next().unwrap_or("").to_owned();
-            table.row(vec![card.id.into(), card.title.into(), card.unit.into(), dimensions.join(", "), first]);
-        }
-        if options.format == MetricsForm::Md {
-            writeln!(out, "{}", table.markdown())?;
-            for card in list {
-                writeln!(out, "{}", metric(card, options.format))?;
-            }
-            return Ok(());
-        }
-        writeln!(out, "{}\n{} metrics; `flockworks metrics ID` shows one.", table.text(), list.len())?;
-        writeln!(out, "Shares of the named states of a model, and contacts, are measured by themselves.")?;
-        return Ok(());
-    };
-    let Some(card) = list.iter().find(|card| card.id == id) else {
-        let ids: Vec<&str> = list.iter().map(|card| card.id).collect();
-        return wrong(format!("unknown metric `{id}`{}", hint(id, &ids)));
-    };
-    write!(out, "{}", metric(card, options.format))?;
-    Ok(())
-}
-
-/// All there is to know about a metric.
-fn metric(card: &measure::MetricCard, form: MetricsForm) -> String {
-    let counted = match card.counted {
-        measure::Counted::Positions => "those with a position",
-        measure::Counted::Velocities => "those with a position and a velocity",
-        measure::Counted::Headings => "those with a heading, that is with a speed above 1e-12",
-        measure::Counted::Bodies => "those whose direction of the body is known",
-    };
-    let edge = &card.edge;
-    let mut rows = vec![
-        ("Definition", format!("{} = {}", card.symbol, card.definition.replace('\n', " "))),
-        ("Variant", card.variant.to_owned()),
-        ("Unit", card.unit.to_owned()),
-        ("Source", card.source.to_owned()),
-        ("Members counted", counted.to_owned()),
-        (
-            "Where there is little to measure",
-            format!("no members: {}; one: {}; all at rest: {}", edge.empty, edge.one, edge.at_rest),
-        ),
-    ];
-    for p in card.parameters {
-        let default = p.default.map_or_else(|| "(to be given)".to_owned(), |value| value.to_string());
-        rows.push(("Parameter", format!("{} = {default} {}: {}", p.name, p.unit, p.about)));
-    }
-    let mut text = match form {
-        MetricsForm::Text => format!("{}: {}\n", card.id, card.title),
-        MetricsForm::Md => format!("## {}\n\n{}\n\n", card.id, card.title),
-    };
-    for (name, value) in rows {
-        text += &match form {
-            MetricsForm::Text => format!("\n{name}\n  {value}\n"),
-            MetricsForm::Md => format!("- {name}: {value}\n"),
-        };
-    }
-    text
 }
 
 /// Writes the tables of a run in another form.

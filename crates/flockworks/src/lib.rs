@@ -9,6 +9,7 @@ pub mod fault;
 pub mod files;
 pub mod json;
 pub mod kinds;
+pub mod metrics;
 pub mod models;
 pub mod plain;
 pub mod run;

@@ -472,9 +472,13 @@ fn schema_metrics_completions_and_man_pages() {
     let models = schema["$defs"]["Model"]["oneOf"].as_array().unwrap();
     assert!(models.len() > 20);
     let metrics = text(&ran(&["metrics"]).stdout);
-    assert!(metrics.contains("polarisation") && metrics.contains("13 metrics"));
+    assert!(
+        metrics.contains("polarisation") && metrics.contains("metrics of a frame") && metrics.contains("leadership")
+    );
     let one = text(&ran(&["metrics", "group_count"]).stdout);
     assert!(one.contains("linking_distance = 25") && one.contains("Source"));
+    let over_time = text(&ran(&["metrics", "leadership"]).stdout);
+    assert!(over_time.contains("max_lag = (to be given) s") && over_time.contains("delay (s)"));
     assert_eq!(ran(&["metrics", "polarization"]).status.code(), Some(2));
     for shell in ["bash", "zsh", "fish"] {
         assert!(text(&ran(&["completions", shell]).stdout).contains("conformance"), "{shell}");

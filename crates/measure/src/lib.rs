@@ -5,6 +5,9 @@
 //! sums are taken in that order and in f64, and offsets go by minimum image on periodic axes. Each metric is one
 //! file in [`metrics`] and one line in its list; its [`MetricCard`] says what it is and where it is undefined.
 //!
+//! [`Tracks`] are the frames of animals (or of a recorded run) in one table. [`per_frame`] measures every frame of them;
+//! what needs more than one moment is a [`TrackMetric`], listed in [`over_time`].
+//!
 //! ```
 //! use measure::{Metric, Sample, metrics};
 //! use space::{Columns, Frame, Space, Vector};

@@ -37,8 +37,8 @@ impl TrackMetric for Flow {
         definition: "in each window: the number of individuals that pass for the first time / time from the last \
                     passage before the window (before the first passage of all: from the frame before it) to the \
                     last one in it; the first row is of all: (number - 1) / time from the first to the last passage",
-        variant: "first passage of each individual, in either direction; windows follow each other from the frame \
-                    before the first passage",
+        variant: "first passage of each individual, in either direction; windows follow each other from the first \
+                    passage, which is in the first of them",
         source: "as the package PedPy counts",
         counted: Counted::Positions,
         dimensions: &[2],
@@ -75,15 +75,15 @@ impl TrackMetric for Flow {
             let flow = (passages.len() as f64 - 1.0) / (time(last) - time(first));
             found.push([time(first), time(last), passages.len() as f64, flow, flow / length, speed(&passages)]);
         }
-        let (mut from, mut before) = (time(first) - interval, time(first) - interval);
-        while from + self.window <= time(last) {
-            let to = from + self.window;
+        let (mut from, mut to, mut before) =
+            (time(first) - interval, time(first) + self.window, time(first) - interval);
+        while to <= time(last) + 1e-9 {
             let inside = |passage: &&Crossing| time(passage) > from + 1e-9 && time(passage) <= to + 1e-9;
             let window: Vec<Crossing> = passages.iter().filter(inside).cloned().collect();
             let flow = window.last().map_or(0.0, |last| window.len() as f64 / (time(last) - before));
             before = window.last().map_or(before, time);
             found.push([from, to, window.len() as f64, flow, flow / length, speed(&window)]);
-            from = to;
+            (from, to) = (to, to + self.window);
         }
         Ok(found)
     }
@@ -102,9 +102,9 @@ mod tests {
         let flow = Flow { x1: -1.0, y1: 0.0, x2: 1.0, y2: 0.0, window: 4.0, speed_frames: 1.0 };
         let found = flow.on(&tracks(Space::open(), 1.0, 14, 5, place)?)?;
         close(&found.row(0), &[2.0, 10.0, 5.0, 0.5, 0.25, 1.0]);
-        // (1, 5]: passages at 2 and 4; (5, 9]: at 6 and 8
-        close(&found.row(1), &[1.0, 5.0, 2.0, 2.0 / 3.0, 1.0 / 3.0, 1.0]);
-        close(&found.row(2), &[5.0, 9.0, 2.0, 0.5, 0.25, 1.0]);
+        // from 2 to 6: passages at 2, 4 and 6; after that to 10: at 8 and 10
+        close(&found.row(1), &[1.0, 6.0, 3.0, 0.6, 0.3, 1.0]);
+        close(&found.row(2), &[6.0, 10.0, 2.0, 0.5, 0.25, 1.0]);
         assert_eq!(found.len(), 3);
         Ok(())
     }

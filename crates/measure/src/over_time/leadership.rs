@@ -58,11 +58,10 @@ impl TrackMetric for Leadership {
             for j in i + 1..paths.len() {
                 let mut best: Option<(f64, i64, f64)> = None;
                 for &delay in &delays {
-                    let (from, to) = (&headings[i], &headings[j]);
                     let shift = delay.unsigned_abs() as usize;
-                    let shifted = |headings: &[Vector<f64, D>]| headings.get(shift..).unwrap_or_default().to_vec();
-                    let (from, to) = if delay >= 0 { (from.clone(), shifted(to)) } else { (shifted(from), to.clone()) };
-                    let (sum, pairs) = from.iter().zip(&to).fold((0.0, 0.0), |(sum, pairs), (&one, &other)| {
+                    let shifted = |k: usize| headings[k].get(shift..).unwrap_or_default();
+                    let (from, to) = if delay >= 0 { (&headings[i][..], shifted(j)) } else { (shifted(i), &headings[j][..]) };
+                    let (sum, pairs) = from.iter().zip(to).fold((0.0, 0.0), |(sum, pairs), (&one, &other)| {
                         let both = one != Vector::ZERO && other != Vector::ZERO;
                         if both { (sum + one.dot(other), pairs + 1.0) } else { (sum, pairs) }
                     });
