@@ -1,5 +1,6 @@
 //! The commands and their options.
 
+use crate::analyze::{AnalyzeOptions, analyze};
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
@@ -34,13 +35,15 @@ pub struct Line {
 pub enum Command {
     /// Run a file: results, tables and a page in a folder. The same command again continues where it stopped.
     Run(RunOptions),
+    /// Measure tracks of animals, people or simulations: tables of text or Parquet, or folders of runs.
+    Analyze(AnalyzeOptions),
     /// Look at a world while it runs and change it, or at runs that were recorded: a page on this machine alone.
     View(ViewOptions),
     /// Check files and run nothing: everything that is wrong, at its place.
     Check(CheckOptions),
     /// Print a commented file to start from.
     New(KindOptions),
-    /// Print the JSON schema of a kind of file, for editors, or the table of its keys.
+    /// Print the JSON schema of a kind of file, for editors, or the table of its keys; without a kind, all kinds.
     Schema(SchemaOptions),
     /// Say what moved one agent of a recorded run: what it perceived, whom it selected, what each rule asked, as JSON.
     Explain(ExplainOptions),
@@ -85,6 +88,7 @@ pub enum Command {
 pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
     match &line.command {
         Command::Run(options) => run::run(options, out),
+        Command::Analyze(options) => analyze(options, out).map(|()| 0),
         Command::View(options) => view(options, out).map(|()| 0),
         Command::Check(options) => run::check(options, out).map(|()| 0),
         Command::New(options) => files::new(options, out).map(|()| 0),

@@ -1,5 +1,6 @@
 //! `flockworks`: the command line. It reads files, hands them to the rooms below, and prints what comes back; the logic is theirs.
 
+pub mod analyze;
 pub mod bench;
 pub mod case;
 pub mod command;
@@ -8,6 +9,7 @@ pub mod emit;
 pub mod fault;
 pub mod files;
 pub mod json;
+pub mod kinds;
 pub mod metrics;
 pub mod models;
 pub mod plain;

@@ -1,6 +1,7 @@
-//! `flockworks run`, `check`, `report`: scenarios from file to page.
+//! `flockworks run`, `check`, `report`: files from text to page.
 
 use crate::fault::{Fault, wrong};
+use crate::kinds::{self, Input};
 use clap::Args;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lab::report::of_run;
@@ -23,7 +24,7 @@ const INTERRUPTED: u8 = 130;
 /// Options of `run`.
 #[derive(Args, Debug)]
 pub struct RunOptions {
-    /// The file: TOML that begins with `kind = "scenario"`.
+    /// The file: TOML that begins with its kind, as in `kind = "scenario"`.
     pub file: String,
     /// Folder for the results. The same command again continues an unfinished run.
     ///
@@ -69,7 +70,7 @@ impl From<StoreError> for Fault {
 }
 
 /// A file's text. `-` is standard input.
-fn text_of(file: &str) -> Result<String, Fault> {
+pub(crate) fn text_of(file: &str) -> Result<String, Fault> {
     let bytes = if file == "-" {
         let mut bytes = Vec::new();
         std::io::Read::read_to_end(&mut std::io::stdin(), &mut bytes).map(|_| bytes)
@@ -97,11 +98,8 @@ fn near_file(file: &str) -> Option<String> {
 }
 
 /// Reads a scenario with all that is wrong in it shown at once.
-pub(crate) fn scenario(file: &str, sets: &[String]) -> Result<Read, Fault> {
-    build::read(file, &text_of(file)?, sets).map_err(|problems| {
-        let styled = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-        Fault::Shown(problems.show(styled))
-    })
+pub(crate) fn scenario(input: &Input) -> Result<Read, Fault> {
+    build::read(&input.name, &input.text, &input.sets).map_err(|problems| kinds::shown(&problems))
 }
 
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -187,11 +185,11 @@ impl Watch for Progress {
         }
     }
     fn stop(&self) -> bool {
-        STOP.load(Ordering::Relaxed)
+        stopped()
     }
 }
 
-/// Runs a scenario; the answer is the exit code.
+/// Runs a file; the answer is the exit code.
 ///
 /// # Errors
 /// What is wrong with the input, the folder or the system.
@@ -202,7 +200,28 @@ pub fn run(options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
     if let Some(seed) = options.seed.filter(|&seed| i64::try_from(seed).is_err()) {
         return wrong(format!("--seed must be below 2^63, found {seed}"));
     }
-    let read = scenario(&options.file, &options.set)?;
+    let (kind, input) = kinds::read(&options.file, &options.set)?;
+    kind.run(input, options, out)
+}
+
+/// Listens for Ctrl-C: the first one asks to stop, which [`stopped`] tells; a second one ends at once, and what was
+/// written stays whole either way.
+pub(crate) fn listen() -> Result<(), Fault> {
+    let handler = ctrlc::set_handler(|| {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+    });
+    handler.map_err(|error| Fault::Ours(format!("cannot listen for Ctrl-C: {error}")))
+}
+
+/// Whether Ctrl-C was pressed.
+pub(crate) fn stopped() -> bool {
+    STOP.load(Ordering::Relaxed)
+}
+
+/// Runs a scenario; the answer is the exit code.
+pub(crate) fn run_scenario(read: Read, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
     let agents = read.scenario.group.0.iter().map(|(_, group)| group.count as u64).sum();
     let request = Request {
         read,
@@ -212,13 +231,7 @@ pub fn run(options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
         out: options.out.clone(),
         program: PROGRAM.to_owned(),
     };
-    // a second Ctrl-C ends at once; what was written stays whole either way
-    let handler = ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-    });
-    handler.map_err(|error| Fault::Ours(format!("cannot listen for Ctrl-C: {error}")))?;
+    listen()?;
     let mut progress = Progress::new(agents);
     let outcome = run::run(&request, &mut progress);
     progress.bar.finish_and_clear();
@@ -262,12 +275,8 @@ fn told(request: &Request, outcome: &Outcome, out: &mut dyn Write) -> Result<(),
 pub fn check(options: &CheckOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let mut faults = String::new();
     for file in &options.files {
-        match scenario(file, &options.set) {
-            Ok(read) => {
-                let schedule = build::schedule(&read.scenario, false).map_err(|w| Fault::Input(w.what))?;
-                let agents: usize = read.scenario.group.0.iter().map(|(_, group)| group.count).sum();
-                writeln!(out, "{file}: {agents} agents, {} steps of {}", schedule.steps, schedule.step)?;
-            }
+        match kinds::read(file, &options.set).and_then(|(kind, input)| kind.check(&input)) {
+            Ok(line) => writeln!(out, "{file}: {line}")?,
             Err(Fault::Shown(text)) => faults.push_str(&text),
             Err(other) => {
                 faults.push_str(&other.to_string());
@@ -306,7 +315,11 @@ pub(crate) fn read_back(path: &Path) -> Result<(Read, u64, bool), Fault> {
 /// # Errors
 /// A folder that is of no complete run, or cannot be written to.
 pub fn report(options: &ReportOptions, out: &mut dyn Write) -> Result<(), Fault> {
-    let path = &options.folder;
+    kinds::of_folder(&options.folder)?.report(&options.folder, out)
+}
+
+/// Makes the page of a complete run of a scenario anew.
+pub(crate) fn report_of_run(path: &Path, out: &mut dyn Write) -> Result<(), Fault> {
     let (read, seed, quick) = read_back(path)?;
     let page = of_run::page(path, &read, seed, quick, PROGRAM)?;
     let html = lab::report::html(&page);

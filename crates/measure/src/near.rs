@@ -505,7 +505,7 @@ mod tests {
         let lattice: Vec<Vector<f64, 2>> =
             (0..400).map(|k| Vector([f64::from(k % 20) * 3.0, f64::from(k / 20) * 3.0])).collect();
         for space in [Space::open(), Space::walled([60.0; 2]), Space::periodic([60.0; 2])] {
-            assert_eq!(linked_by_grid(&space, &lattice, 3.0), Some(vec![0; 400]));
+            assert_eq!(linked_by_cells(&space, &lattice, 3.0), vec![0; 400]);
             assert_eq!(linked_by_all_pairs(&space, &lattice, 3.0), vec![0; 400]);
             assert_eq!(nearest_by_grid(&space, &lattice), Some(vec![3.0; 400]));
         }
@@ -567,8 +567,8 @@ mod tests {
         assert_eq!(nearest_by_grid(&space, &line), Some(vec![1.0; 100]));
         let thin: Vec<Vector<f64, 2>> = line.iter().map(|p| Vector([p.0[0], 1e-9 * p.0[0]])).collect();
         assert_eq!(nearest_by_grid(&space, &thin), Some(nearest_by_all_pairs(&space, &thin)));
-        assert_eq!(linked_by_grid(&space, &thin, 2.0), Some(vec![0; 100]));
-        assert_eq!(linked_by_grid(&Space::walled([1e-6; 2]), &line, 2.0), Some(vec![0; 100]), "beyond the walls");
+        assert_eq!(linked_by_cells(&space, &thin, 2.0), vec![0; 100]);
+        assert_eq!(linked_by_cells(&Space::walled([1e-6; 2]), &line, 2.0), vec![0; 100], "beyond the walls");
         assert_eq!(nearest_distances::<2>(&space, &line[..1]), [f64::INFINITY]);
     }
 }

@@ -7,7 +7,8 @@ mod assets;
 mod session;
 
 use crate::fault::{Fault, wrong};
-use crate::run::{PROGRAM, read_back, scenario};
+use crate::kinds;
+use crate::run::PROGRAM;
 use axum::Router;
 use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade};
 use axum::extract::{Path as Part, State};
@@ -44,8 +45,8 @@ pub struct ViewOptions {
 pub(crate) enum Given {
     /// A scenario: name and text.
     Scenario(String, String),
-    /// The folder of a run.
-    Run(PathBuf),
+    /// The folder of a run, and which of its recordings.
+    Run(PathBuf, usize),
 }
 
 /// What all connections share.
@@ -71,12 +72,14 @@ pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let mut given = Vec::new();
     for path in &options.what {
         if path.is_dir() {
-            read_back(path)?;
-            given.push(Given::Run(path.clone()));
+            let recordings = kinds::of_folder(path)?.recordings(path)?;
+            // the recordings of one folder are shown as two folders are, side by side
+            let shown = if options.what.len() == 1 { recordings.min(2) } else { 1 };
+            given.extend((0..shown).map(|recording| Given::Run(path.clone(), recording)));
         } else {
-            let name = path.display().to_string();
-            let read = scenario(&name, &[])?;
-            given.push(Given::Scenario(name, read.sources.text(0).to_owned()));
+            let (kind, input) = kinds::read(&path.display().to_string(), &[])?;
+            let (name, text) = kind.view(&input, options)?;
+            given.push(Given::Scenario(name, text));
         }
     }
     let runtime = tokio::runtime::Builder::new_multi_thread()

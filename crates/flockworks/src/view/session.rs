@@ -1,8 +1,8 @@
 //! A session: one page, one world, and what the page asks for.
 
 use super::{Given, Shared};
-use crate::run::read_back;
-use lab::live::{LiveError, Recorded, Shown, simulate};
+use crate::kinds;
+use lab::live::{LiveError, Shown, simulate};
 use serde_json::{Value as Json, json};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
@@ -98,7 +98,7 @@ impl Session {
             .iter()
             .map(|given| match given {
                 Given::Scenario(name, _) => json!({ "kind": "scenario", "name": name }),
-                Given::Run(path) => json!({ "kind": "run", "name": path.display().to_string() }),
+                Given::Run(path, _) => json!({ "kind": "run", "name": path.display().to_string() }),
             })
             .collect();
         self.tell(&json!({ "is": "hello", "program": self.program, "given": given }));
@@ -234,9 +234,9 @@ impl Session {
             let at = message.get("given").and_then(Json::as_u64).unwrap_or(0) as usize;
             match self.shared.given.get(at) {
                 Some(Given::Scenario(name, text)) => (simulate(name, text, &[], None, threads)?, false),
-                Some(Given::Run(path)) => {
-                    let (read, seed, quick) = read_back(path).map_err(|fault| LiveError::Request(fault.to_string()))?;
-                    (Box::new(Recorded::open(path, read, seed, quick)?), true)
+                Some(Given::Run(path, recording)) => {
+                    let kind = kinds::of_folder(path).map_err(|fault| LiveError::Request(fault.to_string()))?;
+                    (kind.show(path, *recording)?, true)
                 }
                 None => return Err(LiveError::Request("the command line named nothing to open".into())),
             }

@@ -5,7 +5,7 @@
 
 pub mod edit;
 pub mod form;
-
+pub mod kind;
 pub mod reference;
 pub mod schema;
 pub mod source;

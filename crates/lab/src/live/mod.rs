@@ -6,9 +6,11 @@
 mod controls;
 mod recorded;
 mod simulated;
+mod tracked;
 
 pub use recorded::Recorded;
 pub use simulated::simulate;
+pub use tracked::Tracked;
 
 use crate::file::Problems;
 use crate::scenario::Scenario;

@@ -16,6 +16,7 @@ mod ticks;
 pub use document::html;
 
 pub mod of_run;
+pub mod of_tracks;
 
 /// A page.
 #[derive(Clone, Debug, Default, PartialEq)]

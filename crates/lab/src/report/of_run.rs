@@ -15,15 +15,15 @@ use space::{ColumnKind, Edge, Real};
 use std::path::Path;
 
 /// Positions in a replay: about 3 MB of a page.
-const REPLAYED: usize = 300_000;
+pub(super) const REPLAYED: usize = 300_000;
 /// Frames in a replay.
-const REPLAYED_FRAMES: usize = 600;
+pub(super) const REPLAYED_FRAMES: usize = 600;
 /// Agents that are drawn in a scene or a replay.
-const DRAWN: usize = 5_000;
+pub(super) const DRAWN: usize = 5_000;
 /// Kept frames before a moment that make up its trails.
 const TRAIL: usize = 12;
 /// Bytes, about, of a table that is put into the page.
-const DOWNLOADED: u64 = 2 << 20;
+pub(super) const DOWNLOADED: u64 = 2 << 20;
 
 /// The numbers that sum up the run in a folder.
 ///
@@ -94,7 +94,7 @@ pub fn page(folder: &Path, read: &Read, seed: u64, quick: bool, program: &str) -
     })
 }
 
-fn paragraphs(text: &str) -> Vec<String> {
+pub(super) fn paragraphs(text: &str) -> Vec<String> {
     let joined = |part: &str| part.split_whitespace().collect::<Vec<_>>().join(" ");
     text.split("\n\n").map(joined).filter(|part| !part.is_empty()).collect()
 }
@@ -250,7 +250,7 @@ fn summary(scenario: &Scenario, schedule: &Schedule, seed: u64, measured: &Measu
 }
 
 /// 2nd, 3rd, 4th, ...
-fn ordinal(number: usize) -> String {
+pub(super) fn ordinal(number: usize) -> String {
     let ending = match (number % 10, number % 100) {
         (1, n) if n != 11 => "st",
         (2, n) if n != 12 => "nd",
@@ -261,7 +261,7 @@ fn ordinal(number: usize) -> String {
 }
 
 /// Four digits that count.
-pub(crate) fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }

@@ -121,7 +121,7 @@ fn drawn_seed() -> u64 {
 }
 
 /// Seconds since 1970.
-fn now() -> u64 {
+pub(crate) fn now() -> u64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |t| t.as_secs())
 }
 
@@ -285,6 +285,7 @@ fn new_manifest(request: &Request, identity: Json, seed: u64, schedule: &Schedul
     let sources = &request.read.sources;
     json!({
         "format": 1,
+        "kind": "scenario",
         "status": "running",
         "title": request.read.scenario.title,
         "seed": seed,

@@ -76,22 +76,35 @@ impl Folder {
         name: &str,
         fill: impl FnOnce(&mut BufWriter<File>) -> Result<(), StoreError>,
     ) -> Result<(), StoreError> {
-        let (path, part) = (self.file(name), self.file(&format!("{name}.part")));
-        let attempt = || {
-            let file = File::create(&part).map_err(|error| StoreError::io("create", &part, error))?;
-            let mut out = BufWriter::with_capacity(1 << 18, file);
-            fill(&mut out)?;
-            let file = out.into_inner().map_err(|error| StoreError::io("write", &path, error.into_error()))?;
-            drop(file);
-            std::fs::rename(&part, &path).map_err(|error| StoreError::io("write", &path, error))
-        };
-        let done = attempt();
-        if done.is_err() {
-            // nothing half-written stays; that it could not be removed says no more than the first error
-            let _ = std::fs::remove_file(&part);
-        }
-        done
+        whole_file(&self.file(name), fill)
     }
+}
+
+/// Writes a file so that it is either whole or as it was before.
+///
+/// # Errors
+/// What `fill` says, or where the system refuses.
+pub fn whole_file(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> Result<(), StoreError>,
+) -> Result<(), StoreError> {
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let part = PathBuf::from(part);
+    let attempt = || {
+        let file = File::create(&part).map_err(|error| StoreError::io("create", &part, error))?;
+        let mut out = BufWriter::with_capacity(1 << 18, file);
+        fill(&mut out)?;
+        let file = out.into_inner().map_err(|error| StoreError::io("write", path, error.into_error()))?;
+        drop(file);
+        std::fs::rename(&part, path).map_err(|error| StoreError::io("write", path, error))
+    };
+    let done = attempt();
+    if done.is_err() {
+        // nothing half-written stays; that it could not be removed says no more than the first error
+        let _ = std::fs::remove_file(&part);
+    }
+    done
 }
 
 impl Drop for Folder {

@@ -1,0 +1,28 @@
+//! SLEAP: `track,frame_idx,instance.score,nose.x,nose.y,nose.score,...`, a row for each animal in each frame.
+
+use super::{Layout, Place, Plan, Point, Who, chosen_points};
+use crate::store::StoreError;
+use crate::tracks::Ask;
+use crate::tracks::text::Head;
+
+pub(super) const LAYOUT: Layout =
+    Layout { id: "sleap", about: "SLEAP: track, frame_idx, and x and y of each body part", plan };
+
+fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
+    let Some(names) = head.header() else { return Ok(None) };
+    let names = names.to_vec();
+    let at = |name: &str| names.iter().position(|other| other == name);
+    let (Some(track), Some(frame)) = (at("track"), at("frame_idx")) else { return Ok(None) };
+    let mut parts = Vec::new();
+    for (column, name) in names.iter().enumerate() {
+        let Some(part) = name.strip_suffix(".x") else { continue };
+        let Some(y) = at(&format!("{part}.y")) else { continue };
+        parts.push((part.to_owned(), Point { axes: vec![column, y], confidence: at(&format!("{part}.score")) }));
+    }
+    if parts.is_empty() {
+        return Ok(None);
+    }
+    let points = chosen_points(head, ask, &parts, "the skeleton")?;
+    let places = vec![Place { who: Who::Column(track), points, velocity: None }];
+    Ok(Some(Plan { skip: 1, frame: Some(frame), places, unit: Some("px".into()), names, ..Plan::default() }))
+}
