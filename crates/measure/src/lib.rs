@@ -27,6 +27,7 @@
 //! }
 //! ```
 
+pub mod looks;
 mod metric;
 pub mod metrics;
 pub mod near;

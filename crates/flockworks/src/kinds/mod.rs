@@ -2,6 +2,7 @@
 //! `view` and `report` are made from the list.
 
 mod scenario;
+pub mod study;
 
 use crate::fault::{Fault, hint, wrong};
 use crate::run::{RunOptions, text_of};
@@ -14,7 +15,7 @@ use std::io::{IsTerminal, Write};
 use std::path::Path;
 
 /// Every kind, in the order in which they are named.
-pub const LIST: &[&dyn Kind] = &[&scenario::Scenario];
+pub const LIST: &[&dyn Kind] = &[&scenario::Scenario, &study::Study];
 
 /// A file that was named on the command line.
 #[derive(Clone, Debug)]

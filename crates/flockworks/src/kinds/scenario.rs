@@ -1,7 +1,7 @@
 //! `kind = "scenario"`: one world, run once.
 
 use super::{Input, Kind};
-use crate::fault::Fault;
+use crate::fault::{Fault, wrong};
 use crate::run::{self, RunOptions};
 use crate::view::ViewOptions;
 use lab::scenario::{self, build};
@@ -35,6 +35,9 @@ impl Kind for Scenario {
         Ok(format!("{agents} agents, {} steps of {}", schedule.steps, schedule.step))
     }
     fn run(&self, input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
+        if let Some(option) = options.study.given() {
+            return wrong(format!("{option} is for studies; `{}` is a scenario", input.name));
+        }
         run::run_scenario(run::scenario(&input)?, options, out)
     }
     fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
