@@ -32,6 +32,7 @@ mod metric;
 pub mod metrics;
 pub mod near;
 mod sample;
+pub mod statistics;
 
 pub use metric::{Counted, EdgeCases, Measure, MeasureError, Metric, MetricCard, Parameter};
 pub use sample::Sample;
