@@ -2,7 +2,7 @@
 
 use super::number::{bytes, quantity};
 use super::palette::{self, SERIES};
-use super::{Figure, Lines, Page, Replay, Scenes, Stage, Table, chart, escape, replay, scene};
+use super::{Figure, Lines, Means, Page, Replay, Scenes, Stage, Table, chart, escape, replay, scene};
 use core::fmt::Write;
 use minijinja::{Environment, Value, context};
 use serde_json::json;
@@ -28,11 +28,13 @@ pub fn html(page: &Page) -> String {
         counted(&mut replays, &|number| replay_figure(recording, number));
         replay_data.push(replay::data(recording));
     }
-    let drawn = |figure| match figure {
-        Figure::Lines(lines) => Some((lines, None)),
-        Figure::Means(means) => Some((&means.lines, Some(means))),
-        _ => None,
-    };
+    fn drawn(figure: &Figure) -> Option<(&Lines, Option<&Means>)> {
+        match figure {
+            Figure::Lines(lines) => Some((lines, None)),
+            Figure::Means(means) => Some((&means.lines, Some(means))),
+            _ => None,
+        }
+    }
     for (lines, means) in page.figures.iter().filter_map(drawn) {
         let id = escape::file_name(&lines.id, &format!("chart-{}", chart_data.len() + 1));
         let chart = means.map_or_else(|| chart::chart(lines, &id), |means| chart::means(means, &id));
@@ -197,7 +199,7 @@ fn nonce<'a>(texts: impl Iterator<Item = &'a String>) -> String {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 mod tests {
-    use super::super::{Axis, Border, Fact, Line, Listing, Means, Moment, Outline, Seen};
+    use super::super::{Axis, Border, Fact, Line, Listing, Moment, Outline, Seen};
     use super::*;
 
     /// A text that gets out of wherever it is not escaped.

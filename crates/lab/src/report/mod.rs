@@ -14,6 +14,7 @@ mod scene;
 mod ticks;
 
 pub use document::html;
+pub(crate) use number::number as short;
 
 pub mod of_run;
 

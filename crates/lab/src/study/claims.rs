@@ -102,6 +102,12 @@ struct Data<'a> {
 
 impl Names for Data<'_> {
     fn value(&self, name: &str, selectors: &[Selector], bytes: &Range<usize>) -> Result<Value, Mistake> {
+        // a name of another part has the part before it: exp1.coverage
+        if let Some((part, below)) = name.split_once('.')
+            && let Some(part) = self.plan.parts.iter().find(|own| own.name == part)
+        {
+            return Data { part, ..*self }.value(below, selectors, bytes);
+        }
         let factor = |name: &str| self.part.factors.iter().position(|factor| factor.name == name);
         let reading = self.plan.readings.iter().position(|(own, _)| own == name);
         let known = || {
@@ -197,10 +203,22 @@ pub(super) fn check(plan: &Plan, part: usize, tree: &Node, sources: &Sources, de
             known("factor", name, &factors, format!("test.{k}.each.{n}"));
         }
     }
+    check_claims(plan, part, &part.claims, tree, sources, desk);
+}
+
+/// Notes what is wrong with statements.
+pub(super) fn check_claims(
+    plan: &Plan,
+    part: &Part,
+    claims: &[Claim],
+    tree: &Node,
+    sources: &Sources,
+    desk: &mut Desk,
+) {
     // with any numbers, an expression must have a value
     let any = |_: usize, _: usize| Some(1.0);
     let data = Data { plan, part, mean: &any };
-    for (k, claim) in part.claims.iter().enumerate() {
+    for (k, claim) in claims.iter().enumerate() {
         for (key, text, truth) in [("number", &claim.number, false), ("holds", &claim.holds, true)] {
             let Some(text) = text else { continue };
             let value = Expression::parse(text).and_then(|expression| {
@@ -295,7 +313,7 @@ pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawing
         Some(Ok(value)) => value.truth().ok_or_else(|| "it is neither true nor false".to_owned()),
         Some(Err(mistake)) => Err(mistake.what),
     };
-    let fewest = part.cells.clone().map(|cell| of_cell(plan, results, cell).count()).min().unwrap_or(0);
+    let fewest = (0..plan.cells.len()).map(|cell| of_cell(plan, results, cell).count()).min().unwrap_or(0);
     let (mut drawn, mut held) = (vec![Vec::new(); number.len()], 0.0);
     for counts in &drawings.counts {
         let mean = |cell: usize, reading: usize| {

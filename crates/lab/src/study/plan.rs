@@ -123,6 +123,8 @@ pub struct Plan {
     pub cells: Vec<Cell>,
     /// Conditions, in the order of the first cell of each.
     pub conditions: Vec<Condition>,
+    /// Statements about several parts together.
+    pub claims: Vec<Claim>,
     /// What is read off each trial.
     pub readings: Vec<(String, Reading)>,
     /// When trials are looked at.
@@ -236,6 +238,7 @@ impl Reader<'_> {
             parts: Vec::new(),
             cells: Vec::new(),
             conditions: Vec::new(),
+            claims: Vec::new(),
             readings: Vec::new(),
             looks: Window { from: None, interval: 1.0 },
             units: (String::new(), String::new()),
@@ -245,6 +248,7 @@ impl Reader<'_> {
         };
         let trials = (given("trials"), given("quick_trials"), given("seed"));
         let over = top.study.clone();
+        let whole = (!alone).then(|| top.tree.clone());
         for raw in if alone { vec![top] } else { raws } {
             let study = &raw.study;
             let trials = match (self.quick, alone, trials) {
@@ -258,6 +262,10 @@ impl Reader<'_> {
                 self.desk.problem(&raw.tree.place("seed"), what, "one seed for all", "");
             }
             self.part(&mut plan, &raw, trials)?;
+        }
+        if let Some(tree) = whole {
+            plan.claims = over.claim;
+            super::claims::check_claims(&plan, &plan.parts[0], &plan.claims, &tree, &self.sources, &mut self.desk);
         }
         (self.desk.problems.is_empty()).then_some(plan)
     }
