@@ -3,10 +3,8 @@
 use crate::command::Line;
 use crate::fault::{Fault, hint, wrong};
 use crate::kinds;
-use crate::run::read_back;
 use crate::table::Table;
 use clap::{Args, CommandFactory, ValueEnum};
-use lab::run::{EVENTS, METRICS, TRAJECTORY};
 use lab::store::table::Table as Stored;
 use lab::store::{StoreError, export as forms};
 use std::io::Write;
@@ -202,10 +200,10 @@ fn metric(card: &measure::MetricCard, form: MetricsForm) -> String {
 /// A folder that is of no complete run, or one that cannot be written to.
 pub fn export(options: &ExportOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let from = &options.folder;
-    read_back(from)?;
+    let tables = kinds::of_folder(from)?.tables(from)?;
     let to = options.out.as_ref().unwrap_or(from);
     std::fs::create_dir_all(to).map_err(|error| StoreError::io("make the folder", to, error))?;
-    for name in [TRAJECTORY, METRICS, EVENTS] {
+    for name in tables {
         let path = from.join(name);
         if !path.exists() {
             continue;

@@ -56,6 +56,11 @@ pub trait Kind: Sync {
         let _ = options;
         wrong(format!("`{}` is of the kind {}, of which there is nothing to look at", input.name, self.id()))
     }
+    /// The tables of a complete folder, by file name.
+    ///
+    /// # Errors
+    /// A folder that is not complete.
+    fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault>;
     /// Makes the page of a complete folder anew.
     ///
     /// # Errors

@@ -4,6 +4,7 @@ use super::{Input, Kind};
 use crate::fault::{Fault, wrong};
 use crate::run::{self, RunOptions};
 use crate::view::ViewOptions;
+use lab::run::{EVENTS, METRICS, TRAJECTORY};
 use lab::scenario::{self, build};
 use serde_json::Value as Json;
 use std::io::Write;
@@ -40,9 +41,16 @@ impl Kind for Scenario {
         }
         run::run_scenario(run::scenario(&input)?, options, out)
     }
-    fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
+    fn view(&self, input: &Input, options: &ViewOptions) -> Result<(String, String), Fault> {
+        if options.cell.is_some() || options.trial.is_some() {
+            return wrong(format!("--cell and --trial are for studies; `{}` is a scenario", input.name));
+        }
         let read = run::scenario(input)?;
         Ok((input.name.clone(), read.sources.text(0).to_owned()))
+    }
+    fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
+        run::read_back(folder)?;
+        Ok(vec![TRAJECTORY, METRICS, EVENTS])
     }
     fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         run::report_of_run(folder, out)

@@ -7,7 +7,7 @@ use crate::view::ViewOptions;
 use clap::Args;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lab::file::{Node, Tree, write::toml};
-use lab::study::execute::{self, End, REPORT, Selection};
+use lab::study::execute::{self, CELLS, End, REPORT, Selection, TRIALS};
 use lab::study::form::Study as Form;
 use lab::study::{self, Plan, claims, trial};
 use serde_json::Value as Json;
@@ -139,6 +139,13 @@ impl Kind for Study {
     fn view(&self, input: &Input, options: &ViewOptions) -> Result<(String, String), Fault> {
         let plan = read(input, false)?;
         scenario_of(&plan, options.cell.as_deref().unwrap_or("1"), options.trial.unwrap_or(1))
+    }
+    fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
+        execute::of_folder(folder)?;
+        if !folder.join(CELLS).exists() {
+            return wrong(format!("`{}` has no tables yet; `flockworks run` continues it", folder.display()));
+        }
+        Ok(vec![TRIALS, CELLS])
     }
     fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         execute::report_again(folder, PROGRAM)?;

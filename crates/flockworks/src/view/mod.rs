@@ -78,6 +78,10 @@ pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let mut given = Vec::new();
     for path in &options.what {
         if path.is_dir() {
+            if kinds::of_folder(path)?.id() != "scenario" {
+                let what = "is no folder of a single run; view the file, and of a study name --cell and --trial";
+                return wrong(format!("`{}` {what}", path.display()));
+            }
             read_back(path)?;
             given.push(Given::Run(path.clone()));
         } else {

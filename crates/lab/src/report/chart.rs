@@ -41,6 +41,8 @@ struct Plot {
     bottom: f64,
     x: (f64, f64),
     y: (f64, f64),
+    /// Room below the horizontal axis for names that stand aslant; zero where they do not.
+    slant: f64,
 }
 
 impl Plot {
@@ -75,20 +77,25 @@ fn drawn(lines: &Lines, means: Option<&Means>, id: &str) -> Chart {
     let widest = y_ticks.labels.iter().map(|label| label.chars().count()).max().unwrap_or(0);
     let left = (widest as f64 * LETTER + 10.0).clamp(24.0, 120.0);
     let right = WIDTH - 14.0;
+    let mut slant = 0.0;
     let (x, x_ticks) = if names.is_empty() {
         let x = ends(lines.x.range, values().map(|(x, _)| x));
         (x, ticks(x, X_MARKS))
     } else {
-        // each name has its share of the width, less a gap
-        let letters = ((right - left) / names.len() as f64 / LETTER - 1.0).max(3.0) as usize;
-        let labels = names.iter().map(|name| markup(&shortened(name, letters))).collect();
+        // each name has its share of the width, less a gap; longer ones stand aslant
+        let room = ((right - left) / names.len() as f64 / LETTER - 1.0).max(3.0) as usize;
+        let longest = names.iter().map(|name| name.chars().count().min(SLANTED)).max().unwrap_or(0);
+        if longest > room {
+            slant = longest as f64 * LETTER * SLOPE;
+        }
+        let labels = names.iter().map(|name| markup(&shortened(name, SLANTED))).collect();
         let x_ticks = Ticks { places: (0..names.len()).map(|k| k as f64).collect(), labels, step: 1.0 };
         ((-0.5, names.len() as f64 - 0.5), x_ticks)
     };
     let legend = Legend::of(&lines.lines, WIDTH);
     let top = legend.height + 26.0;
-    let plot = Plot { left, right, top, bottom: top + PLOT_HEIGHT, x, y };
-    let height = plot.bottom + 42.0;
+    let plot = Plot { left, right, top, bottom: top + PLOT_HEIGHT, x, y, slant };
+    let height = plot.bottom + 42.0 + slant;
     let mut svg = String::new();
     let description = describe(lines, y_values());
     // writing to a string cannot fail, here and below
@@ -233,6 +240,11 @@ impl<'a> Legend<'a> {
 const NAME: usize = 44;
 const AXIS: usize = 48;
 
+/// Most letters of a name below the axis.
+const SLANTED: usize = 24;
+/// Height of a letter's width in a text that stands aslant by 35 degrees.
+const SLOPE: f64 = 0.574;
+
 /// A text of at most so many letters.
 fn shortened(text: &str, letters: usize) -> String {
     if text.chars().count() <= letters {
@@ -264,6 +276,14 @@ fn axes(svg: &mut String, lines: &Lines, plot: &Plot, x_ticks: &Ticks, y_ticks: 
     for (&value, label) in x_ticks.places.iter().zip(&x_ticks.labels) {
         let x = plot.across(value);
         let _ = write!(marks, "M{} {}v4", place(x), place(plot.bottom));
+        if plot.slant > 0.0 {
+            let (x, y) = (place(x + 3.0), place(plot.bottom + 13.0));
+            let _ = write!(
+                svg,
+                "<text class=\"tick\" x=\"{x}\" y=\"{y}\" text-anchor=\"end\" transform=\"rotate(-35 {x} {y})\">{label}</text>"
+            );
+            continue;
+        }
         // the last label must not leave the drawing
         let half = label.chars().count() as f64 * LETTER / 2.0;
         let _ = write!(
@@ -278,7 +298,7 @@ fn axes(svg: &mut String, lines: &Lines, plot: &Plot, x_ticks: &Ticks, y_ticks: 
         svg,
         "<text class=\"axis\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
         place((plot.left + plot.right) / 2.0),
-        place(plot.bottom + 36.0),
+        place(plot.bottom + 36.0 + plot.slant),
         markup(&shortened(&axis_title(&lines.x.label, &lines.x.unit), AXIS))
     );
 }

@@ -300,15 +300,17 @@ pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawing
         (count > 0.0).then(|| sum / count)
     };
     let data = Data { plan, part, mean: &mean };
-    let evaluated = |text: &Option<String>, data: &Data<'_>| {
-        let text = text.as_ref()?;
-        Some(Expression::parse(text).and_then(|expression| expression.value(data)))
+    let parsed = |text: &Option<String>| text.as_ref().map(|text| Expression::parse(text));
+    let (number_of, holds) = (parsed(&claim.number), parsed(&claim.holds));
+    let evaluated = |expression: &Option<Result<Expression, Mistake>>, data: &Data<'_>| {
+        let expression = expression.as_ref()?.as_ref();
+        Some(expression.map_err(Clone::clone).and_then(|expression| expression.value(data)))
     };
-    let number = match evaluated(&claim.number, &data) {
+    let number = match evaluated(&number_of, &data) {
         Some(Ok(value)) => numbers(&value).unwrap_or_default(),
         _ => Vec::new(),
     };
-    let truth = match evaluated(&claim.holds, &data) {
+    let truth = match evaluated(&holds, &data) {
         None => Err("nothing was said of when it holds".to_owned()),
         Some(Ok(value)) => value.truth().ok_or_else(|| "it is neither true nor false".to_owned()),
         Some(Err(mistake)) => Err(mistake.what),
@@ -323,10 +325,10 @@ pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawing
             if count > 0.0 { Some(sum / count) } else { mean(cell, reading) }
         };
         let data = Data { plan, part, mean: &mean };
-        if let Some(Ok(value)) = evaluated(&claim.number, &data) {
+        if let Some(Ok(value)) = evaluated(&number_of, &data) {
             numbers(&value).unwrap_or_default().into_iter().zip(&mut drawn).for_each(|(x, list)| list.push(x));
         }
-        if let Some(Ok(value)) = evaluated(&claim.holds, &data)
+        if let Some(Ok(value)) = evaluated(&holds, &data)
             && value.truth() == Some(true)
         {
             held += 1.0;

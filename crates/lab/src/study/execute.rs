@@ -180,9 +180,14 @@ fn differences(plan: &Plan, manifest: &Json) -> Vec<String> {
 /// The texts that make up a study, as a manifest keeps them.
 fn files(plan: &Plan) -> Json {
     let all = (0..).map(|k| (plan.sources.name(k), plan.sources.text(k)));
-    let texts = all.take_while(|(name, text)| !(name.is_empty() && text.is_empty()));
-    let texts = texts.filter(|(name, _)| *name != "--set");
-    let texts: Vec<Json> = texts.map(|(name, text)| json!({ "name": name, "text": text })).collect();
+    let mut texts: Vec<(&str, &str)> = Vec::new();
+    for (name, text) in all.take_while(|(name, text)| !(name.is_empty() && text.is_empty())) {
+        // a file that several parts extend is kept once
+        if name != "--set" && texts.iter().all(|(other, _)| *other != name) {
+            texts.push((name, text));
+        }
+    }
+    let texts: Vec<Json> = texts.iter().map(|(name, text)| json!({ "name": name, "text": text })).collect();
     json!({ "texts": texts, "set": plan.sets, "quick": plan.quick })
 }
 

@@ -246,20 +246,25 @@ impl Reader<'_> {
             sets: sets.to_vec(),
             quick: self.quick,
         };
-        let trials = (given("trials"), given("quick_trials"), given("seed"));
+        let (given_trials, given_quick, given_seed) = (given("trials"), given("quick_trials"), given("seed"));
         let over = top.study.clone();
         let whole = (!alone).then(|| top.tree.clone());
         for raw in if alone { vec![top] } else { raws } {
             let study = &raw.study;
-            let trials = match (self.quick, alone, trials) {
-                (true, false, (_, true, _)) => over.quick_trials,
-                (true, ..) => study.quick_trials,
-                (false, false, (true, ..)) => over.trials,
-                (false, ..) => study.trials,
+            // what the study of all parts says goes for every part
+            let trials = match self.quick {
+                true if given_quick && !alone => over.quick_trials,
+                true => study.quick_trials,
+                false if given_trials && !alone => over.trials,
+                false => study.trials,
             };
-            if !alone && !raw.tree.get("seed").is_none_or(|_| study.seed == over.seed) {
-                let what = format!("this part has the seed {}, the study {}", study.seed, over.seed);
-                self.desk.problem(&raw.tree.place("seed"), what, "one seed for all", "");
+            if !alone && !given_seed {
+                if plan.parts.is_empty() {
+                    plan.seed = study.seed;
+                } else if study.seed != plan.seed {
+                    let what = format!("this part has the seed {}, those before it {}", study.seed, plan.seed);
+                    self.desk.problem(&raw.tree.place("seed"), what, "one seed for all", "");
+                }
             }
             self.part(&mut plan, &raw, trials)?;
         }
