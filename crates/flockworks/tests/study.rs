@@ -212,7 +212,7 @@ fn mistakes_are_shown_at_their_place() {
             &[("per_point * group", "per_pont * group")],
             &["unknown name `per_pont`", "did you mean `per_point`?", "^^^^^^^^"],
         ),
-        (&[("sqrt(per_point * group.points.count)", "sqrt(per_point * ")], &["not closed", "small.toml:"]),
+        (&[("sqrt(per_point * group.points.count)", "sqrt(per_point * ")], &["the expression ends", "small.toml:"]),
         (&[("\"sqrt(", "\"log(0 * ")], &["the expression gives"]),
         (&[("x = \"noise\"", "x = \"nois\"")], &["no factor is called `nois`", "did you mean `noise`?"]),
         (&[("order[noise = 0,", "order[noise = 9,")], &["`noise` has no such level", "it has 0, 2, 4"]),
@@ -278,6 +278,33 @@ fn designs_make_their_cells() {
     let mut parts: Vec<u32> = cube.split(", ").map(|x| x.parse::<f64>().unwrap() as u32).collect();
     parts.sort_unstable();
     assert_eq!(parts, [0, 1, 2, 3, 4, 5], "one in each part of the range");
+}
+
+#[test]
+fn the_study_to_start_from_runs_and_its_page_is_whole() {
+    let folder = fresh("template");
+    let template = ran(&["new", "study"]);
+    let study = folder.join("template.toml");
+    std::fs::write(&study, &template.stdout).unwrap();
+    let out = folder.join("out");
+    run(study.to_str().unwrap(), &out, &["--quick"]);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    for part in ["Order falls with noise", "whisker", "Tukey-Kramer", "With trials as blocks", "statements.csv", "holds"] {
+        assert!(page.contains(part), "{part}");
+    }
+    for broken in [">NaN", "\"NaN", ",NaN", " NaN", "inf,"] {
+        assert!(!page.contains(broken), "{broken}");
+    }
+    let csv = ran(&["export", out.to_str().unwrap(), "--to", "csv"]);
+    assert_eq!(csv.status.code(), Some(0), "{}", text(&csv.stderr));
+    let cells = std::fs::read_to_string(out.join("cells.csv")).unwrap();
+    assert!(cells.starts_with("part,cell,condition,noise,density,trials,order_mean,order_sem,order_n\n"), "{cells}");
+    assert_eq!(cells.lines().count(), 13);
+    let first = std::fs::read(out.join("report.html")).unwrap();
+    assert_eq!(ran(&["report", out.to_str().unwrap()]).status.code(), Some(0));
+    assert_eq!(first, std::fs::read(out.join("report.html")).unwrap());
+    refused(&["view", out.to_str().unwrap()], &["is no folder of a single run"]);
+    assert!(text(&ran(&["schema"]).stdout).lines().any(|kind| kind == "study"));
 }
 
 #[test]
