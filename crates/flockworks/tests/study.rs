@@ -289,7 +289,9 @@ fn the_study_to_start_from_runs_and_its_page_is_whole() {
     let out = folder.join("out");
     run(study.to_str().unwrap(), &out, &["--quick"]);
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
-    for part in ["Order falls with noise", "whisker", "Tukey-Kramer", "With trials as blocks", "statements.csv", "holds"] {
+    for part in
+        ["Order falls with noise", "whisker", "Tukey-Kramer", "With trials as blocks", "statements.csv", "holds"]
+    {
         assert!(page.contains(part), "{part}");
     }
     for broken in [">NaN", "\"NaN", ",NaN", " NaN", "inf,"] {

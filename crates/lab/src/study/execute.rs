@@ -39,10 +39,6 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// Whether it is the whole study.
-    pub fn whole(&self) -> bool {
-        *self == Self::default()
-    }
     /// The trials wanted, by condition and number: first trials first, so that a study that is stopped has as many of each
     /// condition.
     pub fn units(&self, plan: &Plan) -> Vec<(usize, usize)> {

@@ -40,12 +40,11 @@ pub fn page(plan: &Plan, results: &Results, program: &str) -> Page {
             }
         }
     }
-    for (claim, part) in plan.claims.iter().zip(core::iter::repeat(plan.parts.first())) {
-        if let Some(part) = part {
-            let judged = claims::judge(plan, results, part, claim, &drawings);
-            statements.push(statement("", claim, &judged));
-            judgements.push((claim.strength, judged));
-        }
+    // statements about several parts name the part before each reading
+    for claim in plan.claims.iter().filter(|_| !plan.parts.is_empty()) {
+        let judged = claims::judge(plan, results, &plan.parts[0], claim, &drawings);
+        statements.push(statement("", claim, &judged));
+        judgements.push((claim.strength, judged));
     }
     let mut listings = Vec::new();
     if !statements.is_empty() {
@@ -83,7 +82,8 @@ pub fn page(plan: &Plan, results: &Results, program: &str) -> Page {
             "Pairs compared" => ("pairs.csv", "A row for each pair of levels of each test."),
             _ => continue,
         };
-        let rows = core::iter::once(listing.header.clone()).chain(listing.rows.iter().cloned()).collect();
+        let rows: Vec<Vec<String>> =
+            core::iter::once(listing.header.clone()).chain(listing.rows.iter().cloned()).collect();
         tables.push(Table { file: file.into(), about: about.into(), csv: csv(&rows) });
     }
     figures.extend(listings.into_iter().map(Figure::Listing));
@@ -135,12 +135,12 @@ fn summary(plan: &Plan, results: &Results, judgements: &[(super::form::Strength,
         let all = judgements.iter().filter(|(own, _)| *own == strength).count();
         if all > 0 {
             let text = format!(
-                "{} hold, {} do not, {} cannot be judged",
+                "{} of {all} hold, {} do not, {} open",
                 of("holds"),
                 of("does not hold"),
                 of("cannot be judged")
             );
-            facts.push(fact(&format!("Statements of strength {} ({all})", strength.word()), text));
+            facts.push(fact(&format!("Statements, strength {}", strength.word()), text));
         }
     }
     facts
@@ -489,7 +489,7 @@ fn cells_in_full(plan: &Plan, results: &Results) -> Vec<Vec<String>> {
     core::iter::once(header).chain(plan.cells.iter().enumerate().map(row)).collect()
 }
 
-fn csv(rows: &Vec<Vec<String>>) -> String {
+fn csv(rows: &[Vec<String>]) -> String {
     let cell = |text: &String| {
         if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.clone() }
     };
