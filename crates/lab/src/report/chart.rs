@@ -75,7 +75,7 @@ fn drawn(lines: &Lines, means: Option<&Means>, id: &str) -> Chart {
     };
     let y_ticks = ticks(y, Y_MARKS);
     let widest = y_ticks.labels.iter().map(|label| label.chars().count()).max().unwrap_or(0);
-    let left = (widest as f64 * LETTER + 10.0).clamp(24.0, 120.0);
+    let mut left = (widest as f64 * LETTER + 10.0).clamp(24.0, 120.0);
     let right = WIDTH - 14.0;
     let mut slant = 0.0;
     let (x, x_ticks) = if names.is_empty() {
@@ -87,6 +87,9 @@ fn drawn(lines: &Lines, means: Option<&Means>, id: &str) -> Chart {
         let longest = names.iter().map(|name| name.chars().count().min(SLANTED)).max().unwrap_or(0);
         if longest > room {
             slant = longest as f64 * LETTER * SLOPE;
+            // the first name must not leave the drawing
+            let first = names[0].chars().count().min(SLANTED) as f64 * LETTER * LEVEL;
+            left = left.max(first - (right - left) / (2.0 * names.len() as f64));
         }
         let labels = names.iter().map(|name| markup(&shortened(name, SLANTED))).collect();
         let x_ticks = Ticks { places: (0..names.len()).map(|k| k as f64).collect(), labels, step: 1.0 };
@@ -242,8 +245,9 @@ const AXIS: usize = 48;
 
 /// Most letters of a name below the axis.
 const SLANTED: usize = 24;
-/// Height of a letter's width in a text that stands aslant by 35 degrees.
+/// What a letter's width becomes in height, and in width, in a text that stands aslant by 35 degrees.
 const SLOPE: f64 = 0.574;
+const LEVEL: f64 = 0.819;
 
 /// A text of at most so many letters.
 fn shortened(text: &str, letters: usize) -> String {
@@ -510,6 +514,10 @@ mod tests {
         assert_eq!(paths(&chart.svg), [""; 0], "no line between names");
         assert_eq!(chart.data["x"]["names"][1], "filled");
         assert_eq!(chart.data["lines"][0]["spread"][0], 0.5);
+        assert!(!chart.svg.contains("rotate"));
+        let long = ["a_name_that_is_too_long_for_its_share_of_the_width", "b", "c", "d", "e", "f"].map(str::to_owned);
+        let slanted = means(&Means { names: long.to_vec(), ..shown.clone() }, "a");
+        assert_eq!(slanted.svg.matches("rotate(-35").count(), 6);
         let numbers = means(&Means { names: vec![], ..shown }, "a");
         assert_eq!(paths(&numbers.svg).len(), 1);
         assert!(numbers.data["x"].get("names").is_none());
