@@ -5,6 +5,7 @@ use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::fault::Fault;
 use crate::files::{self, CompletionsOptions, ExplainOptions, ExportOptions, KindOptions, ManOptions, SchemaOptions};
+use crate::kinds::study::{MergeOptions, merge};
 use crate::metrics::{MetricsOptions, metrics};
 use crate::models::{ModelsOptions, models};
 use crate::run::{self, CheckOptions, ReportOptions, RunOptions};
@@ -49,6 +50,8 @@ pub enum Command {
     Explain(ExplainOptions),
     /// Make the page of a complete run anew.
     Report(ReportOptions),
+    /// Join the folders that runs of one study with `--shard` left.
+    Merge(MergeOptions),
     /// Write the tables of a run in another form.
     Export(ExportOptions),
     /// List the metrics, or show one: definition, unit, source, parameters, edge cases.
@@ -95,6 +98,7 @@ pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
         Command::Schema(options) => files::schema(options, out).map(|()| 0),
         Command::Explain(options) => files::explain(options, out).map(|()| 0),
         Command::Report(options) => run::report(options, out).map(|()| 0),
+        Command::Merge(options) => merge(options, out).map(|()| 0),
         Command::Export(options) => files::export(options, out).map(|()| 0),
         Command::Metrics(options) => metrics(options, out).map(|()| 0),
         Command::Completions(options) => files::completions(options, out).map(|()| 0),

@@ -5,7 +5,6 @@ use crate::fault::{Fault, hint, wrong};
 use crate::kinds;
 use crate::run::read_back;
 use clap::{Args, CommandFactory, ValueEnum};
-use lab::run::{EVENTS, METRICS, TRAJECTORY};
 use lab::store::folder::whole_file;
 use lab::store::table::Table as Stored;
 use lab::store::{StoreError, export as forms};
@@ -117,10 +116,10 @@ pub fn schema(options: &SchemaOptions, out: &mut dyn Write) -> Result<(), Fault>
 /// A folder that is of no complete run, or one that cannot be written to.
 pub fn export(options: &ExportOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let from = &options.folder;
-    read_back(from)?;
+    let tables = kinds::of_folder(from)?.tables(from)?;
     let to = options.out.as_ref().unwrap_or(from);
     std::fs::create_dir_all(to).map_err(|error| StoreError::io("make the folder", to, error))?;
-    for name in [TRAJECTORY, METRICS, EVENTS] {
+    for name in tables {
         let path = from.join(name);
         if !path.exists() {
             continue;

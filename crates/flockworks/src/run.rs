@@ -1,6 +1,7 @@
 //! `flockworks run`, `check`, `report`: files from text to page.
 
 use crate::fault::{Fault, wrong};
+use crate::kinds::study::StudyOptions;
 use crate::kinds::{self, Input};
 use clap::Args;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -17,9 +18,9 @@ use std::time::{Duration, Instant};
 /// Name and version of the program.
 pub const PROGRAM: &str = concat!("flockworks ", env!("CARGO_PKG_VERSION"));
 /// Time between two lines where no terminal shows a bar.
-const QUIET: Duration = Duration::from_secs(10);
+pub(crate) const QUIET: Duration = Duration::from_secs(10);
 /// Exit code of a run that was interrupted, as shells count it.
-const INTERRUPTED: u8 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
 
 /// Options of `run`.
 #[derive(Args, Debug)]
@@ -40,9 +41,12 @@ pub struct RunOptions {
     /// Put a value over the file's: a path, `=`, a value as in TOML, as in `group.fish.count=50`.
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Run a tenth of the time.
+    /// Run a tenth of the time; of a study, few trials.
     #[arg(long)]
     pub quick: bool,
+    /// Options of studies.
+    #[command(flatten)]
+    pub study: StudyOptions,
 }
 
 /// Options of `check`.
@@ -139,7 +143,7 @@ impl Progress {
     }
 }
 
-fn rate(per_second: f64) -> String {
+pub(crate) fn rate(per_second: f64) -> String {
     match per_second {
         r if r >= 1e6 => format!("{:.1} M agent-updates/s", r / 1e6),
         r if r >= 1e3 => format!("{:.0} k agent-updates/s", r / 1e3),

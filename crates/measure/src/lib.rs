@@ -33,6 +33,7 @@
 pub mod domains;
 pub mod ground;
 pub mod hull;
+pub mod looks;
 mod metric;
 pub mod metrics;
 pub mod near;

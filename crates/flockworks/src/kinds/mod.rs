@@ -2,6 +2,7 @@
 //! `view` and `report` are made from the list.
 
 mod scenario;
+pub mod study;
 mod tracks;
 
 use crate::fault::{Fault, hint, wrong};
@@ -16,7 +17,7 @@ use std::io::{IsTerminal, Write};
 use std::path::Path;
 
 /// Every kind, in the order in which they are named.
-pub const LIST: &[&dyn Kind] = &[&scenario::Scenario, &tracks::Tracks];
+pub const LIST: &[&dyn Kind] = &[&scenario::Scenario, &study::Study, &tracks::Tracks];
 
 /// A file that was named on the command line.
 #[derive(Clone, Debug)]
@@ -57,16 +58,26 @@ pub trait Kind: Sync {
         let _ = options;
         wrong(format!("`{}` is of the kind {}, of which there is nothing to look at", input.name, self.id()))
     }
-    /// How many things there are to look at in a complete folder.
+    /// How many recordings there are to look at in a complete folder.
     ///
     /// # Errors
-    /// A folder that is not complete.
-    fn recordings(&self, folder: &Path) -> Result<usize, Fault>;
+    /// A folder that is not complete, or of a kind that records nothing.
+    fn recordings(&self, folder: &Path) -> Result<usize, Fault> {
+        let what = "holds no recording; view the file that made it, and of a study name --cell and --trial";
+        wrong(format!("`{}` {what}", folder.display()))
+    }
     /// One of them.
     ///
     /// # Errors
     /// A folder that is not complete, or has no such recording.
-    fn show(&self, folder: &Path, recording: usize) -> Result<Box<dyn Shown>, LiveError>;
+    fn show(&self, folder: &Path, recording: usize) -> Result<Box<dyn Shown>, LiveError> {
+        Err(LiveError::Request(format!("`{}` has no recording {recording}", folder.display())))
+    }
+    /// The tables of a complete folder, by file name.
+    ///
+    /// # Errors
+    /// A folder that is not complete.
+    fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault>;
     /// Makes the page of a complete folder anew.
     ///
     /// # Errors

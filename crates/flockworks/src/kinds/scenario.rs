@@ -1,10 +1,11 @@
 //! `kind = "scenario"`: one world, run once.
 
 use super::{Input, Kind};
-use crate::fault::Fault;
+use crate::fault::{Fault, wrong};
 use crate::run::{self, RunOptions};
 use crate::view::ViewOptions;
 use lab::live::{LiveError, Recorded, Shown};
+use lab::run::{EVENTS, METRICS, TRAJECTORY};
 use lab::scenario::{self, build};
 use serde_json::Value as Json;
 use std::io::Write;
@@ -36,9 +37,15 @@ impl Kind for Scenario {
         Ok(format!("{agents} agents, {} steps of {}", schedule.steps, schedule.step))
     }
     fn run(&self, input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
+        if let Some(option) = options.study.given() {
+            return wrong(format!("{option} is for studies; `{}` is a scenario", input.name));
+        }
         run::run_scenario(run::scenario(&input)?, options, out)
     }
-    fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
+    fn view(&self, input: &Input, options: &ViewOptions) -> Result<(String, String), Fault> {
+        if options.cell.is_some() || options.trial.is_some() {
+            return wrong(format!("--cell and --trial are for studies; `{}` is a scenario", input.name));
+        }
         let read = run::scenario(input)?;
         Ok((input.name.clone(), read.sources.text(0).to_owned()))
     }
@@ -48,6 +55,10 @@ impl Kind for Scenario {
     fn show(&self, folder: &Path, _: usize) -> Result<Box<dyn Shown>, LiveError> {
         let (read, seed, quick) = run::read_back(folder).map_err(|fault| LiveError::Request(fault.to_string()))?;
         Ok(Box::new(Recorded::open(folder, read, seed, quick)?))
+    }
+    fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
+        run::read_back(folder)?;
+        Ok(vec![TRAJECTORY, METRICS, EVENTS])
     }
     fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         run::report_of_run(folder, out)

@@ -5,6 +5,8 @@ use crate::analyze::{self, Job};
 use crate::fault::{Fault, wrong};
 use crate::run::RunOptions;
 use lab::live::{LiveError, Shown, Tracked};
+use lab::run::{EVENTS, METRICS, TRAJECTORY};
+use lab::tracks::tables::OVER_TIME;
 use lab::tracks::{self, file, folder};
 use serde_json::Value as Json;
 use std::io::Write;
@@ -46,6 +48,9 @@ impl Kind for Tracks {
         Ok(parts.join("; "))
     }
     fn run(&self, input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
+        if let Some(option) = options.study.given() {
+            return wrong(format!("{option} is for studies, and `{}` is a file of tracks", input.name));
+        }
         if options.seed.is_some() || options.quick {
             return wrong("--seed and --quick are for simulations; tracks are as they were recorded");
         }
@@ -70,6 +75,10 @@ impl Kind for Tracks {
     }
     fn show(&self, path: &Path, recording: usize) -> Result<Box<dyn Shown>, LiveError> {
         Ok(Box::new(Tracked::open(path, recording)?))
+    }
+    fn tables(&self, path: &Path) -> Result<Vec<&'static str>, Fault> {
+        folder::manifest_of(path)?;
+        Ok(vec![TRAJECTORY, METRICS, EVENTS, OVER_TIME])
     }
     fn report(&self, path: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         let manifest = folder::manifest_of(path)?;

@@ -4,7 +4,7 @@ use super::escape::markup;
 use super::number::{axis_title, number, place};
 use super::palette::{DASHES, SERIES};
 use super::ticks::{FURTHEST, Ticks, ends, rounded_ends, ticks};
-use super::{Line, Lines};
+use super::{Line, Lines, Means};
 use core::fmt::Write;
 use serde_json::{Value, json};
 
@@ -41,6 +41,8 @@ struct Plot {
     bottom: f64,
     x: (f64, f64),
     y: (f64, f64),
+    /// Room below the horizontal axis for names that stand aslant; zero where they do not.
+    slant: f64,
 }
 
 impl Plot {
@@ -54,26 +56,49 @@ impl Plot {
 
 /// Draws a chart.
 pub(super) fn chart(lines: &Lines, id: &str) -> Chart {
+    drawn(lines, None, id)
+}
+
+/// Draws means with their spread.
+pub(super) fn means(means: &Means, id: &str) -> Chart {
+    drawn(&means.lines, Some(means), id)
+}
+
+fn drawn(lines: &Lines, means: Option<&Means>, id: &str) -> Chart {
+    let names = means.map_or(&[][..], |means| &means.names);
     let values = || lines.lines.iter().flat_map(points);
-    let x = ends(lines.x.range, values().map(|(x, _)| x));
     let y_values = || values().filter_map(|(_, y)| y);
+    let bars = || means.into_iter().flat_map(whiskers).flat_map(|whisker| [whisker.low, whisker.high]);
     let y = match lines.y.range {
         Some(_) => ends(lines.y.range, y_values()),
-        None => rounded_ends(ends(None, y_values()), Y_MARKS),
+        None => rounded_ends(ends(None, y_values().chain(bars())), Y_MARKS),
     };
-    let (x_ticks, y_ticks) = (ticks(x, X_MARKS), ticks(y, Y_MARKS));
+    let y_ticks = ticks(y, Y_MARKS);
     let widest = y_ticks.labels.iter().map(|label| label.chars().count()).max().unwrap_or(0);
+    let mut left = (widest as f64 * LETTER + 10.0).clamp(24.0, 120.0);
+    let right = WIDTH - 14.0;
+    let mut slant = 0.0;
+    let (x, x_ticks) = if names.is_empty() {
+        let x = ends(lines.x.range, values().map(|(x, _)| x));
+        (x, ticks(x, X_MARKS))
+    } else {
+        // each name has its share of the width, less a gap; longer ones stand aslant
+        let room = ((right - left) / names.len() as f64 / LETTER - 1.0).max(3.0) as usize;
+        let longest = names.iter().map(|name| name.chars().count().min(SLANTED)).max().unwrap_or(0);
+        if longest > room {
+            slant = longest as f64 * LETTER * SLOPE;
+            // the first name must not leave the drawing
+            let first = names[0].chars().count().min(SLANTED) as f64 * LETTER * LEVEL;
+            left = left.max(first - (right - left) / (2.0 * names.len() as f64));
+        }
+        let labels = names.iter().map(|name| markup(&shortened(name, SLANTED))).collect();
+        let x_ticks = Ticks { places: (0..names.len()).map(|k| k as f64).collect(), labels, step: 1.0 };
+        ((-0.5, names.len() as f64 - 0.5), x_ticks)
+    };
     let legend = Legend::of(&lines.lines, WIDTH);
     let top = legend.height + 26.0;
-    let plot = Plot {
-        left: (widest as f64 * LETTER + 10.0).clamp(24.0, 120.0),
-        right: WIDTH - 14.0,
-        top,
-        bottom: top + PLOT_HEIGHT,
-        x,
-        y,
-    };
-    let height = plot.bottom + 42.0;
+    let plot = Plot { left, right, top, bottom: top + PLOT_HEIGHT, x, y, slant };
+    let height = plot.bottom + 42.0 + slant;
     let mut svg = String::new();
     let description = describe(lines, y_values());
     // writing to a string cannot fail, here and below
@@ -96,10 +121,57 @@ pub(super) fn chart(lines: &Lines, id: &str) -> Chart {
         );
     }
     for (index, line) in lines.lines.iter().enumerate() {
-        draw_line(&mut svg, line, &plot, index);
+        // between names there is nothing that a line could stand for
+        if names.is_empty() {
+            draw_line(&mut svg, line, &plot, index);
+        }
+    }
+    if let Some(means) = means {
+        draw_means(&mut svg, means, &plot);
     }
     svg.push_str("</svg>");
-    Chart { svg, data: data(lines, id, &plot) }
+    Chart { svg, data: data(lines, means, id, &plot) }
+}
+
+/// A mean with its bar.
+struct Whisker {
+    line: usize,
+    x: f64,
+    y: f64,
+    low: f64,
+    high: f64,
+}
+
+/// The means that are there, with their bars; over names those of several lines stand side by side.
+fn whiskers(means: &Means) -> Vec<Whisker> {
+    let lines = &means.lines.lines;
+    let aside = |line: usize| {
+        if means.names.is_empty() || lines.len() < 2 {
+            return 0.0;
+        }
+        0.5 * (line as f64 / (lines.len() as f64 - 1.0) - 0.5)
+    };
+    let mut all = Vec::new();
+    for (index, line) in lines.iter().enumerate() {
+        for (k, (&x, y)) in line.x.iter().zip(&line.y).enumerate() {
+            let Some(y) = y.filter(|y| y.is_finite() && x.is_finite()) else { continue };
+            let spread = means.spread.get(index).and_then(|spread| spread.get(k)).copied().flatten();
+            let spread = spread.filter(|spread| spread.is_finite()).unwrap_or(0.0);
+            all.push(Whisker { line: index, x: x + aside(index), y, low: y - spread, high: y + spread });
+        }
+    }
+    all
+}
+
+fn draw_means(svg: &mut String, means: &Means, plot: &Plot) {
+    for Whisker { line, x, y, low, high } in whiskers(means) {
+        let (x, series) = (place(plot.across(x)), line % SERIES);
+        if high > low {
+            let (low, high) = (place(plot.down(low)), place(plot.down(high)));
+            let _ = write!(svg, "<path class=\"whisker s{series}\" d=\"M{x} {low}V{high}\"/>");
+        }
+        let _ = write!(svg, "<circle class=\"dot s{series}\" cx=\"{x}\" cy=\"{}\" r=\"2.6\"/>", place(plot.down(y)));
+    }
 }
 
 /// The points of a line with a place on the axis. A value that is not a finite number counts as missing.
@@ -171,6 +243,12 @@ impl<'a> Legend<'a> {
 const NAME: usize = 44;
 const AXIS: usize = 48;
 
+/// Most letters of a name below the axis.
+const SLANTED: usize = 24;
+/// What a letter's width becomes in height, and in width, in a text that stands aslant by 35 degrees.
+const SLOPE: f64 = 0.574;
+const LEVEL: f64 = 0.819;
+
 /// A text of at most so many letters.
 fn shortened(text: &str, letters: usize) -> String {
     if text.chars().count() <= letters {
@@ -202,6 +280,14 @@ fn axes(svg: &mut String, lines: &Lines, plot: &Plot, x_ticks: &Ticks, y_ticks: 
     for (&value, label) in x_ticks.places.iter().zip(&x_ticks.labels) {
         let x = plot.across(value);
         let _ = write!(marks, "M{} {}v4", place(x), place(plot.bottom));
+        if plot.slant > 0.0 {
+            let (x, y) = (place(x + 3.0), place(plot.bottom + 13.0));
+            let _ = write!(
+                svg,
+                "<text class=\"tick\" x=\"{x}\" y=\"{y}\" text-anchor=\"end\" transform=\"rotate(-35 {x} {y})\">{label}</text>"
+            );
+            continue;
+        }
         // the last label must not leave the drawing
         let half = label.chars().count() as f64 * LETTER / 2.0;
         let _ = write!(
@@ -216,7 +302,7 @@ fn axes(svg: &mut String, lines: &Lines, plot: &Plot, x_ticks: &Ticks, y_ticks: 
         svg,
         "<text class=\"axis\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
         place((plot.left + plot.right) / 2.0),
-        place(plot.bottom + 36.0),
+        place(plot.bottom + 36.0 + plot.slant),
         markup(&shortened(&axis_title(&lines.x.label, &lines.x.unit), AXIS))
     );
 }
@@ -294,26 +380,37 @@ fn reduced(piece: &[(f64, f64)]) -> Vec<(f64, f64)> {
 }
 
 /// The data of a chart. Places that several lines share are written once.
-fn data(lines: &Lines, id: &str, plot: &Plot) -> Value {
+fn data(lines: &Lines, means: Option<&Means>, id: &str, plot: &Plot) -> Value {
     let mut places: Vec<&[f64]> = Vec::new();
     let mut entries = Vec::new();
-    for line in &lines.lines {
+    for (index, line) in lines.lines.iter().enumerate() {
         let points = line.x.len().min(line.y.len());
         let x = &line.x[..points];
         let at = places.iter().position(|known| *known == x).unwrap_or_else(|| {
             places.push(x);
             places.len() - 1
         });
-        entries.push(json!({"name": line.name, "x": at, "y": &line.y[..points]}));
+        let mut entry = json!({"name": line.name, "x": at, "y": &line.y[..points]});
+        if let Some(spread) = means.and_then(|means| means.spread.get(index)) {
+            entry["spread"] = json!(spread);
+        }
+        entries.push(entry);
     }
-    json!({
+    let mut data = json!({
         "id": id,
         "x": {"label": lines.x.label, "unit": lines.x.unit, "ends": [plot.x.0, plot.x.1]},
         "y": {"label": lines.y.label, "unit": lines.y.unit, "ends": [plot.y.0, plot.y.1]},
         "plot": [plot.left, plot.right, plot.top, plot.bottom],
         "places": places,
         "lines": entries,
-    })
+    });
+    if let Some(means) = means {
+        data["spread"] = json!(means.spread_name);
+        if !means.names.is_empty() {
+            data["x"]["names"] = json!(means.names);
+        }
+    }
+    data
 }
 
 #[cfg(test)]
@@ -401,6 +498,29 @@ mod tests {
             assert!(!chart.svg.contains("NaN") && !chart.svg.contains("inf"), "{case:?}: {}", chart.svg);
         }
         assert!(chart(&lines(vec![line(&[None])]), "a").svg.contains("no values"));
+    }
+
+    #[test]
+    fn means_have_bars_and_names_their_places() {
+        let shown = Means {
+            lines: lines(vec![line(&[Some(1.0), Some(2.0)]), line(&[Some(3.0), None])]),
+            spread: vec![vec![Some(0.5), None], vec![Some(f64::NAN)]],
+            spread_name: "standard error".into(),
+            names: vec!["<free>".into(), "filled".into()],
+        };
+        let chart = means(&shown, "a");
+        assert_eq!((chart.svg.matches("<circle").count(), chart.svg.matches("whisker").count()), (3, 1));
+        assert!(chart.svg.contains("&lt;free&gt;") && !chart.svg.contains("<free>"), "{}", chart.svg);
+        assert_eq!(paths(&chart.svg), [""; 0], "no line between names");
+        assert_eq!(chart.data["x"]["names"][1], "filled");
+        assert_eq!(chart.data["lines"][0]["spread"][0], 0.5);
+        assert!(!chart.svg.contains("rotate"));
+        let long = ["a_name_that_is_too_long_for_its_share_of_the_width", "b", "c", "d", "e", "f"].map(str::to_owned);
+        let slanted = means(&Means { names: long.to_vec(), ..shown.clone() }, "a");
+        assert_eq!(slanted.svg.matches("rotate(-35").count(), 6);
+        let numbers = means(&Means { names: vec![], ..shown }, "a");
+        assert_eq!(paths(&numbers.svg).len(), 1);
+        assert!(numbers.data["x"].get("names").is_none());
     }
 
     #[test]

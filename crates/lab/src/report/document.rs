@@ -2,7 +2,7 @@
 
 use super::number::{bytes, quantity};
 use super::palette::{self, SERIES};
-use super::{Figure, Lines, Page, Replay, Scenes, Stage, Table, chart, escape, replay, scene};
+use super::{Figure, Lines, Means, Page, Replay, Scenes, Stage, Table, chart, escape, replay, scene};
 use core::fmt::Write;
 use minijinja::{Environment, Value, context};
 use serde_json::json;
@@ -28,9 +28,16 @@ pub fn html(page: &Page) -> String {
         counted(&mut replays, &|number| replay_figure(recording, number));
         replay_data.push(replay::data(recording));
     }
-    for lines in page.figures.iter().filter_map(|figure| if let Figure::Lines(it) = figure { Some(it) } else { None }) {
+    fn drawn(figure: &Figure) -> Option<(&Lines, Option<&Means>)> {
+        match figure {
+            Figure::Lines(lines) => Some((lines, None)),
+            Figure::Means(means) => Some((&means.lines, Some(means))),
+            _ => None,
+        }
+    }
+    for (lines, means) in page.figures.iter().filter_map(drawn) {
         let id = escape::file_name(&lines.id, &format!("chart-{}", chart_data.len() + 1));
-        let chart = chart::chart(lines, &id);
+        let chart = means.map_or_else(|| chart::chart(lines, &id), |means| chart::means(means, &id));
         counted(&mut charts, &|number| chart_figure(lines, &chart.svg, number));
         chart_data.push(chart.data);
     }
@@ -39,6 +46,12 @@ pub fn html(page: &Page) -> String {
     {
         counted(&mut scenes, &|number| scenes_figure(moments, number));
     }
+    let listings: Vec<Value> = page
+        .figures
+        .iter()
+        .filter_map(|figure| if let Figure::Listing(it) = figure { Some(it) } else { None })
+        .map(|it| context! { title => &it.title, about => &it.about, header => &it.header, rows => &it.rows })
+        .collect();
     let data = escape::data(&json!({
         "charts": chart_data,
         "replays": replay_data,
@@ -63,6 +76,7 @@ pub fn html(page: &Page) -> String {
             summary,
             replays,
             charts,
+            listings,
             scenes,
             methods => &page.methods,
             tables,
@@ -185,7 +199,7 @@ fn nonce<'a>(texts: impl Iterator<Item = &'a String>) -> String {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 mod tests {
-    use super::super::{Axis, Border, Fact, Line, Moment, Outline, Seen};
+    use super::super::{Axis, Border, Fact, Line, Listing, Moment, Outline, Seen};
     use super::*;
 
     /// A text that gets out of wherever it is not escaped.
@@ -205,6 +219,25 @@ mod tests {
 
     fn figures() -> Vec<Figure> {
         let axis = || Axis { label: HOSTILE.into(), unit: HOSTILE.into(), range: None };
+        let means = Means {
+            lines: Lines {
+                id: HOSTILE.into(),
+                title: HOSTILE.into(),
+                about: HOSTILE.into(),
+                x: axis(),
+                y: axis(),
+                lines: vec![Line { name: HOSTILE.into(), x: vec![0.0, 1.0], y: vec![Some(1.0), None] }],
+            },
+            spread: vec![vec![Some(0.1), None]],
+            spread_name: HOSTILE.into(),
+            names: vec![HOSTILE.into(), HOSTILE.into()],
+        };
+        let listing = Listing {
+            title: HOSTILE.into(),
+            about: HOSTILE.into(),
+            header: vec![HOSTILE.into()],
+            rows: vec![vec![HOSTILE.into()]],
+        };
         let line = Line { name: HOSTILE.into(), x: vec![0.0, 1.0], y: vec![Some(1.0), None] };
         let agent = Seen { group: 0, position: [1.0; 3], heading: [1.0, 0.0, 0.0], trail: vec![[0.5; 3]] };
         let wall = Outline::Cuboid { low: [1.0; 3], high: [2.0; 3] };
@@ -236,6 +269,8 @@ mod tests {
                 heading: vec![vec![[1.0, 0.0, 0.0]]],
                 obstacles: vec![vec![wall]],
             }),
+            Figure::Means(means),
+            Figure::Listing(listing),
         ]
     }
 
@@ -298,6 +333,7 @@ mod tests {
             "id=\"summary\"",
             "id=\"replay\"",
             "id=\"measures\"",
+            "id=\"listings\"",
             "id=\"scenes\"",
             "id=\"methods\"",
             "id=\"data\"",
@@ -308,7 +344,7 @@ mod tests {
         let places: Vec<usize> =
             ids.iter().map(|id| page.find(id).unwrap_or_else(|| panic!("{id} is missing"))).collect();
         assert!(places.is_sorted(), "{places:?}");
-        for number in 1..=3 {
+        for number in 1..=4 {
             assert_eq!(page.matches(&format!("id=\"figure-{number}\"")).count(), 1);
         }
     }

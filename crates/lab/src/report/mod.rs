@@ -14,6 +14,7 @@ mod scene;
 mod ticks;
 
 pub use document::html;
+pub(crate) use number::number as short;
 
 pub mod of_run;
 pub mod of_tracks;
@@ -55,6 +56,10 @@ pub struct Fact {
 pub enum Figure {
     /// Lines over a common axis.
     Lines(Lines),
+    /// Means with their spread.
+    Means(Means),
+    /// A table to read.
+    Listing(Listing),
     /// Chosen moments, seen from outside.
     Scenes(Scenes),
     /// A recording to play.
@@ -87,6 +92,32 @@ pub struct Lines {
     pub y: Axis,
     /// The lines.
     pub lines: Vec<Line>,
+}
+
+/// Means with their spread, over numbers or over names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Means {
+    /// The means; over names, places are 0, 1, 2, ...
+    pub lines: Lines,
+    /// Half the length of the bar through each mean, `[lines][points]`.
+    pub spread: Vec<Vec<Option<f64>>>,
+    /// What the spread is: `standard error`.
+    pub spread_name: String,
+    /// The names on the horizontal axis; none where it shows numbers.
+    pub names: Vec<String>,
+}
+
+/// A table to read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Listing {
+    /// Title.
+    pub title: String,
+    /// A sentence below it.
+    pub about: String,
+    /// Names of the columns.
+    pub header: Vec<String>,
+    /// Rows, each as long as the header.
+    pub rows: Vec<Vec<String>>,
 }
 
 /// A line; a missing value interrupts it.

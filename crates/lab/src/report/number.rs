@@ -7,7 +7,7 @@ const MINUS: char = '\u{2212}';
 
 /// A number with four significant digits, in powers of ten (three digits) where it is very large or very small. What is
 /// not a finite number is a dash.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     if !value.is_finite() {
         return "\u{2013}".into();
     }

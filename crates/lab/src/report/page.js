@@ -107,13 +107,18 @@
   const csv = (chart) => {
     const value = (number) => (number === null || number === undefined ? "" : String(number));
     const rows = [];
+    const named = (x) => chart.x.names?.[x] ?? value(x);
     if (chart.places.length <= 1) {
-      rows.push([titled(chart.x), ...chart.lines.map((line) => line.name)]);
-      (chart.places[0] ?? []).forEach((x, at) => rows.push([value(x), ...chart.lines.map((line) => value(line.y[at]))]));
+      const columns = (line) => (line.spread ? [line.name, `${line.name} (${chart.spread})`] : [line.name]);
+      const values = (line, at) => (line.spread ? [value(line.y[at]), value(line.spread[at])] : [value(line.y[at])]);
+      rows.push([titled(chart.x), ...chart.lines.flatMap(columns)]);
+      (chart.places[0] ?? []).forEach((x, at) => rows.push([named(x), ...chart.lines.flatMap((line) => values(line, at))]));
     } else {
-      rows.push(["line", titled(chart.x), titled(chart.y)]);
+      const spread = chart.lines.some((line) => line.spread);
+      rows.push(["line", titled(chart.x), titled(chart.y), ...(spread ? [chart.spread] : [])]);
       for (const line of chart.lines) {
-        line.y.forEach((y, at) => rows.push([line.name, value(chart.places[line.x][at]), value(y)]));
+        line.y.forEach((y, at) => rows.push([
+          line.name, named(chart.places[line.x][at]), value(y), ...(spread ? [value(line.spread?.[at])] : [])]));
       }
     }
     return rows.map((row) => row.map(cell).join(",") + "\n").join("");
@@ -220,12 +225,15 @@
           marks[index].setAttribute("cx", across(x));
           marks[index].setAttribute("cy", clamp(down(y), -1e5, 1e5));
         }
+        const spread = line.spread?.[point];
+        const give = y !== null && spread !== null && spread !== undefined ? ` ± ${withUnit(spread, chart.y.unit)}` : "";
         const elsewhere = own.length > 0 && own[point] !== x ? ` (at ${withUnit(own[point], chart.x.unit)})` : "";
         return element("tr", {},
           element("th", { scope: "row", className: `s${index % 7}`, textContent: line.name }),
-          element("td", { textContent: withUnit(y, chart.y.unit) + elsewhere }));
+          element("td", { textContent: withUnit(y, chart.y.unit) + give + elsewhere }));
       });
-      const caption = element("caption", { textContent: `${chart.x.label} ${withUnit(x, chart.x.unit)}` });
+      const where = chart.x.names?.[x] ?? withUnit(x, chart.x.unit);
+      const caption = element("caption", { textContent: `${chart.x.label} ${where}` });
       box.replaceChildren(element("table", {}, caption, element("tbody", {}, ...rows)));
       svg.append(layer);
       box.hidden = false;

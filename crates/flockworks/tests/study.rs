@@ -1,0 +1,354 @@
+//! Studies as a user meets them: the same tables for any number of threads, stops and shards; what may be added and what
+//! is refused; single trials; the shipped files.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+fn flockworks() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_flockworks"))
+}
+
+fn ran(arguments: &[&str]) -> Output {
+    flockworks().args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A folder of this test's own, empty.
+fn fresh(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("study").join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// A small study, with what is to be changed in it.
+fn file(folder: &Path, changes: &[(&str, &str)]) -> String {
+    let mut study = "\
+kind = \"study\"
+title = \"A small study\"
+trials = 4
+quick_trials = 2
+[looks]
+from = 10
+interval = 1
+[reading.order]
+of.metric = { id = \"polarisation\" }
+[reading.spacing]
+of.metric = { id = \"nearest_neighbour_distance\" }
+[factor.noise]
+path = \"group.points.model.vicsek_1995.noise_amplitude\"
+values = [0, 2, 4]
+[factor.size]
+[factor.size.level.small]
+\"group.points.count\" = 20
+[factor.size.level.large]
+\"group.points.count\" = 40
+[define]
+per_point = \"2.5\"
+[derive]
+\"space.size\" = \"sqrt(per_point * group.points.count)\"
+[scenario]
+time.duration = 30
+space = { dimensions = 2, edges = \"periodic\", size = 1 }
+[scenario.group.points]
+count = 20
+model = \"vicsek_1995\"
+[[figure]]
+title = \"Order\"
+y = [\"order\"]
+x = \"noise\"
+[[test]]
+y = \"order\"
+between = \"noise\"
+only = { size = \"small\" }
+[[claim]]
+id = \"falls\"
+text = \"Order falls with noise\"
+holds = \"order[noise = 0, size = small] > order[noise = 4, size = small]\"
+"
+    .to_owned();
+    for (from, to) in changes {
+        assert!(study.contains(from), "{from}");
+        study = study.replacen(from, to, 1);
+    }
+    let path = folder.join("small.toml");
+    std::fs::write(&path, study).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+fn run(file: &str, out: &Path, more: &[&str]) -> Output {
+    let run = ran(&[&["run", file, "--out", out.to_str().unwrap()], more].concat());
+    assert_eq!(run.status.code(), Some(0), "{file}: {}", text(&run.stderr));
+    run
+}
+
+/// The tables and the page of a study.
+fn results(folder: &Path) -> Vec<Vec<u8>> {
+    ["trials.parquet", "cells.parquet", "report.html"].map(|name| std::fs::read(folder.join(name)).unwrap()).to_vec()
+}
+
+fn refused(arguments: &[&str], parts: &[&str]) {
+    let run = ran(arguments);
+    let said = text(&run.stderr);
+    assert_eq!(run.status.code(), Some(2), "{arguments:?}: {said}");
+    for part in parts {
+        assert!(said.contains(part), "{arguments:?}: {part} is not in\n{said}");
+    }
+}
+
+#[test]
+fn threads_shards_selections_and_extensions_change_no_byte() {
+    let folder = fresh("bytes");
+    let study = file(&folder, &[]);
+    let whole = folder.join("whole");
+    run(&study, &whole, &["--threads", "1"]);
+    let mut names: Vec<String> =
+        std::fs::read_dir(&whole).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, ["cells.parquet", "manifest.json", "report.html", "trials.log", "trials.parquet"]);
+    for threads in ["2", "3"] {
+        let out = folder.join(threads);
+        run(&study, &out, &["--threads", threads]);
+        assert_eq!(results(&whole), results(&out), "{threads} threads");
+    }
+    // piece by piece: quick, some cells, some trials, the rest
+    let pieces = folder.join("pieces");
+    run(&study, &pieces, &["--cells", "noise=2"]);
+    run(&study, &pieces, &["--trials", "1-3", "--cells", "1,6"]);
+    run(&study, &pieces, &["--quick"]);
+    run(&study, &pieces, &[]);
+    assert_eq!(results(&whole), results(&pieces), "pieces");
+    // shards on other machines, one of them done twice
+    let shards: Vec<String> = (1..=3).map(|i| folder.join(format!("shard-{i}")).to_str().unwrap().to_owned()).collect();
+    for (i, out) in shards.iter().enumerate() {
+        run(&study, Path::new(out), &["--shard", &format!("{}/3", i + 1)]);
+    }
+    let merged = folder.join("merged");
+    let from: Vec<&str> = [2, 0, 1, 0].map(|k: usize| shards[k].as_str()).to_vec();
+    let merge = ran(&[&["merge"], from.as_slice(), &["--out", merged.to_str().unwrap()]].concat());
+    assert_eq!(merge.status.code(), Some(0), "{}", text(&merge.stderr));
+    assert_eq!(results(&whole), results(&merged), "shards");
+    // a level and trials are added: the old trials stay as they are, and are not made again
+    let larger = file(&folder, &[("trials = 4", "trials = 5"), ("values = [0, 2, 4]", "values = [0, 1, 2, 4]")]);
+    let extended = run(&larger, &pieces, &[]);
+    assert!(text(&extended.stderr).contains("24 are there already"), "{}", text(&extended.stderr));
+    let anew = folder.join("anew");
+    run(&larger, &anew, &[]);
+    assert_eq!(results(&anew), results(&pieces), "extended");
+}
+
+#[test]
+fn a_killed_study_goes_on_where_it_was() {
+    let folder = fresh("killed");
+    let study = file(&folder, &[("trials = 4", "trials = 40"), ("duration = 30", "duration = 300")]);
+    let (whole, out) = (folder.join("whole"), folder.join("out"));
+    run(&study, &whole, &[]);
+    let mut kills = 0;
+    for at in [1_000, 3_000, 6_000, 9_000] {
+        let mut child = flockworks()
+            .args(["run", &study, "--out", out.to_str().unwrap(), "--threads", "2"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        // until so many bytes of trials are there, or it ended before
+        let log = out.join("trials.log");
+        while std::fs::metadata(&log).map_or(0, |m| m.len()) < at && child.try_wait().unwrap().is_none() {
+            std::thread::yield_now();
+        }
+        kills += usize::from(child.try_wait().unwrap().is_none());
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert!(kills > 0, "it was over before it could be killed");
+    run(&study, &out, &[]);
+    assert_eq!(results(&whole), results(&out));
+    let again = run(&study, &out, &[]);
+    assert!(text(&again.stdout).contains("there already"), "{}", text(&again.stdout));
+}
+
+#[test]
+fn another_study_is_refused_with_the_difference() {
+    let folder = fresh("another");
+    let study = file(&folder, &[]);
+    let out = folder.join("out");
+    let to = out.to_str().unwrap();
+    run(&study, &out, &["--quick"]);
+    let before = results(&out);
+    for (changes, difference) in [
+        (&[("duration = 30", "duration = 31")][..], "time.duration: 30.0 there, 31.0 now"),
+        (&[("trials = 4", "trials = 4\nseed = 1")], "seed: 0 there, 1 now"),
+        (&[("values = [0, 2, 4]", "values = [0, 4]")], "noise = 2, size = small: there, not now"),
+        (&[("interval = 1", "interval = 2")], "looks.interval"),
+        (&[("id = \"nearest_neighbour_distance\"", "id = \"mean_speed\"")], "readings.spacing"),
+    ] {
+        let changed = file(&folder, changes);
+        refused(&["run", &changed, "--out", to], &["holds another study", difference, "--out"]);
+    }
+    assert_eq!(before, results(&out), "nothing was changed");
+    let small = file(&folder, &[]);
+    let scenario = format!("{}/../../studies/gallery/mill.toml", env!("CARGO_MANIFEST_DIR"));
+    refused(&["run", &scenario, "--out", to], &["another run"]);
+    refused(&["run", &scenario, "--cells", "1"], &["--cells is for studies"]);
+    let other = folder.join("other");
+    run(&file(&folder, &[("duration = 30", "duration = 20")]), &other, &["--quick"]);
+    let both = ["merge", to, other.to_str().unwrap(), "--out", folder.join("no").to_str().unwrap()].map(str::to_owned);
+    refused(&both.iter().map(String::as_str).collect::<Vec<_>>(), &["time.duration"]);
+    assert!(!folder.join("no").exists());
+    drop(small);
+}
+
+#[test]
+fn mistakes_are_shown_at_their_place() {
+    let folder = fresh("mistakes");
+    for (changes, parts) in [
+        (&[("noise_amplitude\"", "noise_amplitud\"")][..], &["has no parameter `noise_amplitud`", "did you mean"][..]),
+        (
+            &[("per_point * group", "per_pont * group")],
+            &["unknown name `per_pont`", "did you mean `per_point`?", "^^^^^^^^"],
+        ),
+        (&[("sqrt(per_point * group.points.count)", "sqrt(per_point * ")], &["the expression ends", "small.toml:"]),
+        (&[("\"sqrt(", "\"log(0 * ")], &["the expression gives"]),
+        (&[("x = \"noise\"", "x = \"nois\"")], &["no factor is called `nois`", "did you mean `noise`?"]),
+        (&[("order[noise = 0,", "order[noise = 9,")], &["`noise` has no such level", "it has 0, 2, 4"]),
+        (&[("order[noise = 0,", "oder[noise = 0,")], &["no reading and no factor is called `oder`"]),
+        (
+            &[("id = \"polarisation\"", "id = \"polarization\"")],
+            &["unknown metric `polarization`", "did you mean `polarisation`"],
+        ),
+        (&[("interval = 1", "interval = 1.5")], &["1.5 is no multiple of the step"]),
+        (&[("from = 10", "from = 40")], &["after the end"]),
+        (&[("[reading.order]", "[reading.trial]")], &["a column of the tables is called `trial` already"]),
+        (&[("values = [0, 2, 4]", "values = []")], &["has no levels"]),
+        (&[("[scenario]", "[senario]")], &["unknown key `senario`"]),
+        (&[("[factor.noise]", "design = \"zip\"\n[factor.noise]")], &["`size` has 2 levels and `noise` 3"]),
+        (&[("values = [0, 2, 4]", "steps = { from = 0, to = -1, by = 1 }")], &["lead nowhere"]),
+        (&[("title = \"A small study\"", "title = \"A\"\nextends = \"none.toml\"")], &["cannot read", "none.toml"]),
+    ] {
+        // a key before the first table
+        let changes: Vec<(&str, &str)> = changes.to_vec();
+        let study = if changes[0].1.starts_with("design") {
+            file(&folder, &[("trials = 4", "trials = 4\ndesign = \"zip\"")])
+        } else {
+            file(&folder, &changes)
+        };
+        refused(&["check", &study], parts);
+    }
+    let study = file(&folder, &[]);
+    for (option, value, part) in [
+        ("--cells", "7", "from 1 to 6"),
+        ("--cells", "noise=9", "noise = 0, 2, 4"),
+        ("--trials", "0", "--trials takes"),
+        ("--shard", "3/2", "--shard takes I/N"),
+        ("--cell", "noise=2", "2 cells have"),
+    ] {
+        refused(&["run", &study, option, value], &[part]);
+    }
+}
+
+#[test]
+fn designs_make_their_cells() {
+    let folder = fresh("designs");
+    let cells = |design: &str, values: &str| {
+        let changes =
+            [("trials = 4", format!("trials = 1\ndesign = {design}")), ("values = [0, 2, 4]", values.to_owned())];
+        let changes: Vec<(&str, &str)> = changes.iter().map(|(from, to)| (*from, to.as_str())).collect();
+        // without what speaks of levels
+        let study = file(&folder, &changes);
+        let whole = std::fs::read_to_string(&study).unwrap();
+        std::fs::write(&study, whole.split("[[claim]]").next().unwrap()).unwrap();
+        let plan = ran(&["run", &study, "--plan"]);
+        assert_eq!(plan.status.code(), Some(0), "{}", text(&plan.stderr));
+        text(&plan.stdout)
+    };
+    let of = |plan: &str, line: &str| plan.lines().find(|l| l.trim_start().starts_with(line)).unwrap().to_owned();
+    assert!(of(&cells("\"zip\"", "values = [0, 2]"), "small:").contains("2 cells"));
+    let table = "{ table = [{ noise = 1, size = \"small\" }, { noise = 3, size = \"large\" }, { noise = 1, size = \"large\" }] }";
+    assert!(of(&cells(table, ""), "small:").contains("3 cells"));
+    let random = cells("{ random = { samples = 3 } }", "range = [0, 6]");
+    let more = cells("{ random = { samples = 4 } }", "range = [0, 6]");
+    let levels = |plan: &str| of(plan, "noise").split(": ").nth(1).unwrap().to_owned();
+    assert!(levels(&more).starts_with(&levels(&random)), "more samples change none: {random} {more}");
+    let cube = levels(&cells("{ latin_hypercube = { samples = 6 } }", "range = [0, 6]"));
+    let mut parts: Vec<u32> = cube.split(", ").map(|x| x.parse::<f64>().unwrap() as u32).collect();
+    parts.sort_unstable();
+    assert_eq!(parts, [0, 1, 2, 3, 4, 5], "one in each part of the range");
+}
+
+#[test]
+fn the_study_to_start_from_runs_and_its_page_is_whole() {
+    let folder = fresh("template");
+    let template = ran(&["new", "study"]);
+    let study = folder.join("template.toml");
+    std::fs::write(&study, &template.stdout).unwrap();
+    let out = folder.join("out");
+    run(study.to_str().unwrap(), &out, &["--quick"]);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    for part in
+        ["Order falls with noise", "whisker", "Tukey-Kramer", "With trials as blocks", "statements.csv", "holds"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    for broken in [">NaN", "\"NaN", ",NaN", " NaN,", ">inf"] {
+        assert!(!page.contains(broken), "{broken}");
+    }
+    let csv = ran(&["export", out.to_str().unwrap(), "--to", "csv"]);
+    assert_eq!(csv.status.code(), Some(0), "{}", text(&csv.stderr));
+    let cells = std::fs::read_to_string(out.join("cells.csv")).unwrap();
+    assert!(cells.starts_with("part,cell,condition,noise,density,trials,order_mean,order_sem,order_n\n"), "{cells}");
+    assert_eq!(cells.lines().count(), 13);
+    let first = std::fs::read(out.join("report.html")).unwrap();
+    assert_eq!(ran(&["report", out.to_str().unwrap()]).status.code(), Some(0));
+    assert_eq!(first, std::fs::read(out.join("report.html")).unwrap());
+    refused(&["view", out.to_str().unwrap()], &["is no folder of a single run"]);
+    assert!(text(&ran(&["schema"]).stdout).lines().any(|kind| kind == "study"));
+}
+
+#[test]
+fn a_single_trial_can_be_run_again() {
+    let folder = fresh("single");
+    let study = file(&folder, &[]);
+    let out = folder.join("one");
+    run(&study, &out, &["--cell", "noise=2,size=large", "--trial", "3"]);
+    let manifest: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(out.join("manifest.json")).unwrap()).unwrap();
+    assert_eq!((&manifest["kind"], &manifest["seed"]), (&"scenario".into(), &3.into()));
+    let scenario = &manifest["identity"]["scenario"];
+    assert_eq!(scenario["space"]["size"], 10.0);
+    assert_eq!(scenario["group"]["points"]["model"]["vicsek_1995"]["noise_amplitude"], 2.0);
+    assert!(out.join("trajectory.parquet").exists());
+}
+
+/// The experiments of the behaviour-selection study are those of its table: so many conditions, so many different ones.
+#[test]
+fn the_shipped_studies_have_their_cells() {
+    let shipped = |name: &str| format!("{}/../../studies/{name}", env!("CARGO_MANIFEST_DIR"));
+    for (name, cells, trials) in [
+        ("exp1", 20, 2000),
+        ("exp2", 48, 4800),
+        ("exp3a", 22, 2200),
+        ("exp3b", 21, 2100),
+        ("exp4", 11, 1100),
+        ("exp5", 55, 5500),
+        ("exp6", 12, 1200),
+        ("exp7", 15, 1500),
+        ("exp8", 33, 3300),
+        ("exp9a", 22, 2200),
+        ("exp9b", 22, 2200),
+        ("literal", 20, 2000),
+    ] {
+        let file = shipped(&format!("behaviour-selection/{name}.toml"));
+        let check = ran(&["check", &file]);
+        assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
+        let said = text(&check.stdout);
+        assert!(said.contains(&format!(" {cells} cells, {cells} different conditions, {trials} trials")), "{said}");
+    }
+    let check = ran(&["check", &shipped("behaviour-selection/all.toml")]);
+    let said = text(&check.stdout);
+    assert!(said.contains("281 cells, 236 different conditions, 23600 trials"), "{said}{}", text(&check.stderr));
+}
