@@ -6,6 +6,7 @@ use crate::fault::Fault;
 use crate::files::{
     self, CompletionsOptions, ExplainOptions, ExportOptions, KindOptions, ManOptions, MetricsOptions, SchemaOptions,
 };
+use crate::kinds::study::{MergeOptions, merge};
 use crate::models::{ModelsOptions, models};
 use crate::run::{self, CheckOptions, ReportOptions, RunOptions};
 use crate::step::{StepOptions, step};
@@ -41,12 +42,14 @@ pub enum Command {
     Check(CheckOptions),
     /// Print a commented file to start from.
     New(KindOptions),
-    /// Print the JSON schema of a kind of file, for editors, or the table of its keys.
+    /// Print the JSON schema of a kind of file, for editors, or the table of its keys; without a kind, all kinds.
     Schema(SchemaOptions),
     /// Say what moved one agent of a recorded run: what it perceived, whom it selected, what each rule asked, as JSON.
     Explain(ExplainOptions),
     /// Make the page of a complete run anew.
     Report(ReportOptions),
+    /// Join the folders that runs of one study with `--shard` left.
+    Merge(MergeOptions),
     /// Write the tables of a run in another form.
     Export(ExportOptions),
     /// List the metrics, or show one: definition, unit, source, parameters, edge cases.
@@ -92,6 +95,7 @@ pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
         Command::Schema(options) => files::schema(options, out).map(|()| 0),
         Command::Explain(options) => files::explain(options, out).map(|()| 0),
         Command::Report(options) => run::report(options, out).map(|()| 0),
+        Command::Merge(options) => merge(options, out).map(|()| 0),
         Command::Export(options) => files::export(options, out).map(|()| 0),
         Command::Metrics(options) => files::metrics(options, out).map(|()| 0),
         Command::Completions(options) => files::completions(options, out).map(|()| 0),

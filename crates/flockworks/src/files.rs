@@ -2,23 +2,20 @@
 
 use crate::command::Line;
 use crate::fault::{Fault, hint, wrong};
+use crate::kinds;
 use crate::run::read_back;
 use crate::table::Table;
 use clap::{Args, CommandFactory, ValueEnum};
 use lab::run::{EVENTS, METRICS, TRAJECTORY};
-use lab::scenario::Scenario;
 use lab::store::table::Table as Stored;
 use lab::store::{StoreError, export as forms};
 use std::io::Write;
 use std::path::PathBuf;
 
-/// Kinds of files that can be run.
-const KINDS: [&str; 1] = ["scenario"];
-
 /// Options of `new`.
 #[derive(Args, Debug)]
 pub struct KindOptions {
-    /// Kind of file: scenario.
+    /// Kind of file, as it stands behind `kind =` in it.
     pub kind: String,
 }
 
@@ -34,8 +31,8 @@ pub enum SchemaForm {
 /// Options of `schema`.
 #[derive(Args, Debug)]
 pub struct SchemaOptions {
-    /// Kind of file: scenario.
-    pub kind: String,
+    /// Kind of file, as it stands behind `kind =` in it. Left out, the kinds there are.
+    pub kind: Option<String>,
     /// Form of the output.
     #[arg(long, value_enum, default_value = "json")]
     pub format: SchemaForm,
@@ -107,39 +104,29 @@ pub struct ManOptions {
     pub folder: PathBuf,
 }
 
-fn known(kind: &str) -> Result<(), Fault> {
-    if KINDS.contains(&kind) {
-        return Ok(());
-    }
-    wrong(format!("no kind of file is called `{kind}`{}; there is {}", hint(kind, &KINDS), KINDS.join(", ")))
-}
-
 /// Prints a commented file to start from.
 ///
 /// # Errors
 /// An unknown kind, or a reader that went away.
 pub fn new(options: &KindOptions, out: &mut dyn Write) -> Result<(), Fault> {
-    known(&options.kind)?;
-    out.write_all(lab::scenario::TEMPLATE.as_bytes())?;
+    out.write_all(kinds::find(&options.kind)?.template().as_bytes())?;
     Ok(())
 }
 
-/// Prints the schema of a kind of file.
+/// Prints the schema of a kind of file, or the kinds there are.
 ///
 /// # Errors
 /// An unknown kind, or a reader that went away.
 pub fn schema(options: &SchemaOptions, out: &mut dyn Write) -> Result<(), Fault> {
-    known(&options.kind)?;
-    if options.format == SchemaForm::Md {
-        let lead = "Every key of a scenario file, TOML. A choice is a table with one of its keys, as in \
-                    `driver.sequential = { order = \"random\" }`; where nothing more must be said its name in quotes \
-                    is enough, as in `driver = \"synchronous\"`. Angles are in degrees.";
-        let page = lab::file::reference::reference::<Scenario>("Scenario files", lead);
-        out.write_all(page.as_bytes())?;
+    let Some(kind) = &options.kind else {
+        writeln!(out, "{}", kinds::ids().join("\n"))?;
         return Ok(());
+    };
+    let kind = kinds::find(kind)?;
+    match options.format {
+        SchemaForm::Md => out.write_all(kind.reference().as_bytes())?,
+        SchemaForm::Json => writeln!(out, "{}", serde_json::to_string_pretty(&kind.schema()).unwrap_or_default())?,
     }
-    let schema = lab::file::schema::schema::<Scenario>("flockworks scenario");
-    writeln!(out, "{}", serde_json::to_string_pretty(&schema).unwrap_or_default())?;
     Ok(())
 }
 

@@ -7,6 +7,7 @@ pub mod conformance;
 pub mod fault;
 pub mod files;
 pub mod json;
+pub mod kinds;
 pub mod models;
 pub mod plain;
 pub mod run;

@@ -1,6 +1,8 @@
-//! `flockworks run`, `check`, `report`: scenarios from file to page.
+//! `flockworks run`, `check`, `report`: files from text to page.
 
 use crate::fault::{Fault, wrong};
+use crate::kinds::study::StudyOptions;
+use crate::kinds::{self, Input};
 use clap::Args;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lab::report::of_run;
@@ -16,14 +18,14 @@ use std::time::{Duration, Instant};
 /// Name and version of the program.
 pub const PROGRAM: &str = concat!("flockworks ", env!("CARGO_PKG_VERSION"));
 /// Time between two lines where no terminal shows a bar.
-const QUIET: Duration = Duration::from_secs(10);
+pub(crate) const QUIET: Duration = Duration::from_secs(10);
 /// Exit code of a run that was interrupted, as shells count it.
-const INTERRUPTED: u8 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
 
 /// Options of `run`.
 #[derive(Args, Debug)]
 pub struct RunOptions {
-    /// The file: TOML that begins with `kind = "scenario"`.
+    /// The file: TOML that begins with its kind, as in `kind = "scenario"`.
     pub file: String,
     /// Folder for the results. The same command again continues an unfinished run.
     ///
@@ -39,9 +41,12 @@ pub struct RunOptions {
     /// Put a value over the file's: a path, `=`, a value as in TOML, as in `group.fish.count=50`.
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Run a tenth of the time.
+    /// Run a tenth of the time; of a study, few trials.
     #[arg(long)]
     pub quick: bool,
+    /// Options of studies.
+    #[command(flatten)]
+    pub study: StudyOptions,
 }
 
 /// Options of `check`.
@@ -69,7 +74,7 @@ impl From<StoreError> for Fault {
 }
 
 /// A file's text. `-` is standard input.
-fn text_of(file: &str) -> Result<String, Fault> {
+pub(crate) fn text_of(file: &str) -> Result<String, Fault> {
     let bytes = if file == "-" {
         let mut bytes = Vec::new();
         std::io::Read::read_to_end(&mut std::io::stdin(), &mut bytes).map(|_| bytes)
@@ -97,11 +102,8 @@ fn near_file(file: &str) -> Option<String> {
 }
 
 /// Reads a scenario with all that is wrong in it shown at once.
-pub(crate) fn scenario(file: &str, sets: &[String]) -> Result<Read, Fault> {
-    build::read(file, &text_of(file)?, sets).map_err(|problems| {
-        let styled = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-        Fault::Shown(problems.show(styled))
-    })
+pub(crate) fn scenario(input: &Input) -> Result<Read, Fault> {
+    build::read(&input.name, &input.text, &input.sets).map_err(|problems| kinds::shown(&problems))
 }
 
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -141,7 +143,7 @@ impl Progress {
     }
 }
 
-fn rate(per_second: f64) -> String {
+pub(crate) fn rate(per_second: f64) -> String {
     match per_second {
         r if r >= 1e6 => format!("{:.1} M agent-updates/s", r / 1e6),
         r if r >= 1e3 => format!("{:.0} k agent-updates/s", r / 1e3),
@@ -187,11 +189,11 @@ impl Watch for Progress {
         }
     }
     fn stop(&self) -> bool {
-        STOP.load(Ordering::Relaxed)
+        stopped()
     }
 }
 
-/// Runs a scenario; the answer is the exit code.
+/// Runs a file; the answer is the exit code.
 ///
 /// # Errors
 /// What is wrong with the input, the folder or the system.
@@ -202,7 +204,28 @@ pub fn run(options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
     if let Some(seed) = options.seed.filter(|&seed| i64::try_from(seed).is_err()) {
         return wrong(format!("--seed must be below 2^63, found {seed}"));
     }
-    let read = scenario(&options.file, &options.set)?;
+    let (kind, input) = kinds::read(&options.file, &options.set)?;
+    kind.run(input, options, out)
+}
+
+/// Listens for Ctrl-C: the first one asks to stop, which [`stopped`] tells; a second one ends at once, and what was
+/// written stays whole either way.
+pub(crate) fn listen() -> Result<(), Fault> {
+    let handler = ctrlc::set_handler(|| {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+    });
+    handler.map_err(|error| Fault::Ours(format!("cannot listen for Ctrl-C: {error}")))
+}
+
+/// Whether Ctrl-C was pressed.
+pub(crate) fn stopped() -> bool {
+    STOP.load(Ordering::Relaxed)
+}
+
+/// Runs a scenario; the answer is the exit code.
+pub(crate) fn run_scenario(read: Read, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
     let agents = read.scenario.group.0.iter().map(|(_, group)| group.count as u64).sum();
     let request = Request {
         read,
@@ -212,13 +235,7 @@ pub fn run(options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
         out: options.out.clone(),
         program: PROGRAM.to_owned(),
     };
-    // a second Ctrl-C ends at once; what was written stays whole either way
-    let handler = ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-    });
-    handler.map_err(|error| Fault::Ours(format!("cannot listen for Ctrl-C: {error}")))?;
+    listen()?;
     let mut progress = Progress::new(agents);
     let outcome = run::run(&request, &mut progress);
     progress.bar.finish_and_clear();
@@ -262,12 +279,8 @@ fn told(request: &Request, outcome: &Outcome, out: &mut dyn Write) -> Result<(),
 pub fn check(options: &CheckOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let mut faults = String::new();
     for file in &options.files {
-        match scenario(file, &options.set) {
-            Ok(read) => {
-                let schedule = build::schedule(&read.scenario, false).map_err(|w| Fault::Input(w.what))?;
-                let agents: usize = read.scenario.group.0.iter().map(|(_, group)| group.count).sum();
-                writeln!(out, "{file}: {agents} agents, {} steps of {}", schedule.steps, schedule.step)?;
-            }
+        match kinds::read(file, &options.set).and_then(|(kind, input)| kind.check(&input)) {
+            Ok(line) => writeln!(out, "{file}: {line}")?,
             Err(Fault::Shown(text)) => faults.push_str(&text),
             Err(other) => {
                 faults.push_str(&other.to_string());
@@ -306,7 +319,11 @@ pub(crate) fn read_back(path: &Path) -> Result<(Read, u64, bool), Fault> {
 /// # Errors
 /// A folder that is of no complete run, or cannot be written to.
 pub fn report(options: &ReportOptions, out: &mut dyn Write) -> Result<(), Fault> {
-    let path = &options.folder;
+    kinds::of_folder(&options.folder)?.report(&options.folder, out)
+}
+
+/// Makes the page of a complete run of a scenario anew.
+pub(crate) fn report_of_run(path: &Path, out: &mut dyn Write) -> Result<(), Fault> {
     let (read, seed, quick) = read_back(path)?;
     let page = of_run::page(path, &read, seed, quick, PROGRAM)?;
     let html = lab::report::html(&page);

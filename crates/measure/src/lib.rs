@@ -27,10 +27,12 @@
 //! }
 //! ```
 
+pub mod looks;
 mod metric;
 pub mod metrics;
 pub mod near;
 mod sample;
+pub mod statistics;
 
 pub use metric::{Counted, EdgeCases, Measure, MeasureError, Metric, MetricCard, Parameter};
 pub use sample::Sample;

@@ -25,6 +25,8 @@ pub enum Purpose {
     Environment = 7,
     /// Searches over parameters.
     Search = 8,
+    /// Resampling of measured values.
+    Resampling = 9,
 }
 
 /// The Philox4x32-10 block function: four words from a counter and a key.

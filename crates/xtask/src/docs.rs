@@ -7,7 +7,7 @@ use crate::workspace::{Workspace, not_run};
 
 const FOLDER: &str = "docs/models";
 const INDEX: &str = "docs/models/README.md";
-const SCENARIO: &str = "docs/reference/scenario.md";
+const REFERENCE: &str = "docs/reference";
 const METRICS: &str = "docs/reference/metrics.md";
 const NOTE: &str = "<!-- Written by `cargo xtask docs` from the code; edit that instead. -->\n\n";
 
@@ -57,8 +57,10 @@ fn pages(workspace: &Workspace) -> Result<Vec<(String, String)>, Failure> {
     let table = flockworks(workspace, &["models", "--format", "md"])?;
     let index = index(&ids, &table);
     pages.push((INDEX.to_owned(), index));
-    let keys = flockworks(workspace, &["schema", "scenario", "--format", "md"])?;
-    pages.push((SCENARIO.to_owned(), format!("{NOTE}{keys}")));
+    for kind in flockworks(workspace, &["schema"])?.lines() {
+        let keys = flockworks(workspace, &["schema", kind, "--format", "md"])?;
+        pages.push((format!("{REFERENCE}/{kind}.md"), format!("{NOTE}{keys}")));
+    }
     let metrics = flockworks(workspace, &["metrics", "--format", "md"])?;
     pages.push((METRICS.to_owned(), format!("{NOTE}# The metrics\n\n{metrics}")));
     Ok(pages)

@@ -7,7 +7,8 @@ mod assets;
 mod session;
 
 use crate::fault::{Fault, wrong};
-use crate::run::{PROGRAM, read_back, scenario};
+use crate::kinds;
+use crate::run::{PROGRAM, read_back};
 use axum::Router;
 use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade};
 use axum::extract::{Path as Part, State};
@@ -25,7 +26,7 @@ use std::sync::Arc;
 /// Options of `view`.
 #[derive(Args, Debug)]
 pub struct ViewOptions {
-    /// A scenario file, or the folder of a complete run; two of them are shown side by side. Without any, the gallery.
+    /// A scenario or study file, or the folder of a complete run; two of them are shown side by side. Without any, the gallery.
     #[arg(num_args = 0..=2)]
     pub what: Vec<PathBuf>,
     /// Port on 127.0.0.1. Left out, a free one is chosen.
@@ -34,6 +35,12 @@ pub struct ViewOptions {
     /// Open the page in the browser.
     #[arg(long)]
     pub open: bool,
+    /// Of a study, the cell to look at: its number, or levels as `variant=prob,N=6`. Left out, the first.
+    #[arg(long, value_name = "CELL")]
+    pub cell: Option<String>,
+    /// Of a study, the trial to look at. Left out, the first.
+    #[arg(long, value_name = "N")]
+    pub trial: Option<usize>,
     /// Number of threads for a simulation.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub threads: usize,
@@ -74,9 +81,9 @@ pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
             read_back(path)?;
             given.push(Given::Run(path.clone()));
         } else {
-            let name = path.display().to_string();
-            let read = scenario(&name, &[])?;
-            given.push(Given::Scenario(name, read.sources.text(0).to_owned()));
+            let (kind, input) = kinds::read(&path.display().to_string(), &[])?;
+            let (name, text) = kind.view(&input, options)?;
+            given.push(Given::Scenario(name, text));
         }
     }
     let runtime = tokio::runtime::Builder::new_multi_thread()

@@ -70,6 +70,8 @@ pub enum Shape {
     Fields(Vec<Field>),
     /// A table whose keys are names that the user chooses.
     Named(Box<Shape>),
+    /// Anything; what it may be is told elsewhere.
+    Anything,
 }
 
 /// A key of a table.
@@ -413,6 +415,22 @@ pub fn choice<'a>(node: &'a Node, rule: &Rule<'_>, known: &[&str], desk: &mut De
     let what = format!("{} has no choice `{key}`", quoted(rule.name));
     desk.problem(span, what, format!("expected one of {}", known.join(", ")), help);
     None
+}
+
+/// A value that is not read here, with its place: what it may be depends on where it is put.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Anything(pub Node);
+
+impl Form for Anything {
+    fn read(node: &Node, _: &Rule<'_>, _: &mut Desk) -> Option<Self> {
+        Some(Self(node.clone()))
+    }
+    fn shape(_: &Rule<'_>) -> Shape {
+        Shape::Anything
+    }
+    fn write(&self) -> Tree {
+        self.0.tree.clone()
+    }
 }
 
 /// Declares a table with its keys.

@@ -5,12 +5,13 @@
 
 pub mod edit;
 pub mod form;
-
+pub mod kind;
 pub mod reference;
 pub mod schema;
 pub mod source;
 pub mod tree;
+pub mod write;
 
-pub use form::{Desk, Field, Form, Named, Nothing, PerAxis, Rule, Shape};
+pub use form::{Anything, Desk, Field, Form, Named, Nothing, PerAxis, Rule, Shape};
 pub use source::{Problem, Problems, Sources, Span};
 pub use tree::{Node, Tree};

@@ -71,6 +71,7 @@ fn words(shape: &Shape, todo: &mut Vec<Shape>) -> String {
         }
         Shape::List(entry) => format!("a list of: {}", words(entry, todo)),
         Shape::Either(shapes) => shapes.iter().map(|shape| words(shape, todo)).collect::<Vec<_>>().join("; or "),
+        Shape::Anything => "any value".into(),
         Shape::Fields(fields) if fields.is_empty() => "nothing".into(),
         Shape::Fields(_) => "its keys".into(),
         Shape::Named(entry) => format!("a table of names, each with: {}", words(entry, todo)),

@@ -43,6 +43,7 @@ fn of(shape: &Shape, definitions: &mut Map<String, Json>) -> Json {
             let shapes: Vec<Json> = shapes.iter().map(|shape| of(shape, definitions)).collect();
             json!({ "anyOf": shapes })
         }
+        Shape::Anything => json!({}),
         Shape::Fields(fields) => object(fields, definitions),
         Shape::Named(entry) => json!({ "type": "object", "additionalProperties": of(entry, definitions) }),
         Shape::Table { name, about, fields } => defined(name, definitions, |definitions| {

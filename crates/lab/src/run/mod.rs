@@ -210,9 +210,8 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     let agents: usize = request.read.scenario.group.0.iter().map(|(_, group)| group.count).sum();
     let threads = request.threads.unwrap_or_else(|| threads_for(agents));
     let mut manifest = before.unwrap_or_else(|| new_manifest(request, identity, seed, &schedule));
-    let session = json!({ "program": request.program, "build": build_id(), "threads": threads, "started": now() });
     if let Some(Json::Array(sessions)) = manifest.get_mut("sessions") {
-        sessions.push(session);
+        sessions.push(session(&request.program, threads));
     }
     manifest["status"] = json!("running");
     folder.write_manifest(&manifest)?;
@@ -256,6 +255,7 @@ fn new_manifest(request: &Request, identity: Json, seed: u64, schedule: &Schedul
     let sources = &request.read.sources;
     json!({
         "format": 1,
+        "kind": "scenario",
         "status": "running",
         "title": request.read.scenario.title,
         "seed": seed,
@@ -282,6 +282,11 @@ fn new_manifest(request: &Request, identity: Json, seed: u64, schedule: &Schedul
 /// What was put over the file.
 fn sets(request: &Request) -> Vec<&str> {
     (1..).map(|k| request.read.sources.text(k)).take_while(|text| !text.is_empty()).collect()
+}
+
+/// What is kept of a session when it begins.
+pub(crate) fn session(program: &str, threads: usize) -> Json {
+    json!({ "program": program, "build": build_id(), "threads": threads, "started": now() })
 }
 
 /// A name for the very program that runs: a checksum of its file.

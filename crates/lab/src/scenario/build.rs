@@ -83,6 +83,44 @@ pub fn read(name: &str, text: &str, sets: &[String]) -> Result<Read, Problems> {
     }
     let mut tree = parse(&sources, file, &mut desk.problems);
     let damaged = !desk.problems.is_empty();
+    put(&mut tree, sets, &mut sources, &mut desk);
+    if damaged {
+        // what follows from text that could not be read would only confuse
+        return Err(Problems::new(sources, desk.problems));
+    }
+    match resolved(&tree, &mut desk).filter(|_| desk.problems.is_empty()) {
+        Some(scenario) => Ok(Read { sources, tree, scenario }),
+        None => Err(Problems::new(sources, desk.problems)),
+    }
+}
+
+/// The scenario that a tree says, if a world can be made of it.
+pub(crate) fn resolved(tree: &Node, desk: &mut Desk) -> Option<Scenario> {
+    let scenario = read_tree(tree, desk)?;
+    possible(&scenario, tree, desk).then_some(scenario)
+}
+
+/// The scenario that a tree says, value by value.
+pub(crate) fn read_tree(tree: &Node, desk: &mut Desk) -> Option<Scenario> {
+    let before = desk.problems.len();
+    let scenario =
+        read_kind(tree, desk).and_then(|()| Scenario::read(tree, &Rule { name: "the file", ..Rule::FREE }, desk));
+    scenario.filter(|_| desk.problems.len() == before)
+}
+
+/// Whether a world can be made of a scenario; what stands in the way goes to the desk.
+pub(crate) fn possible(scenario: &Scenario, tree: &Node, desk: &mut Desk) -> bool {
+    let wrongs = check(scenario);
+    let fine = wrongs.is_empty();
+    for wrong in wrongs {
+        let span = tree.place(&wrong.path);
+        desk.problems.push(Problem { span, what: wrong.what, expected: wrong.expected, help: wrong.help });
+    }
+    fine
+}
+
+/// Puts values over those of a file, each written as `path=value`.
+pub(crate) fn put(tree: &mut Node, sets: &[String], sources: &mut Sources, desk: &mut Desk) {
     let mut paths: Vec<String> = Vec::new();
     for set in sets {
         let source = sources.add("--set", set);
@@ -99,30 +137,12 @@ pub fn read(name: &str, text: &str, sets: &[String]) -> Result<Read, Problems> {
         paths.push(path.to_owned());
         let from = set.find('=').map_or(0, |at| at + 1);
         let from = from + set[from..].len() - set[from..].trim_start().len();
-        let value = parse_value(&sources, source, from, &mut desk.problems);
+        let value = parse_value(sources, source, from, &mut desk.problems);
         let node = Node { span: span.clone(), ..value };
         if let Err(problem) = tree.set(path, node) {
             desk.problem(&span, problem, "names no place in the file", "");
         }
     }
-    if damaged {
-        // what follows from text that could not be read would only confuse
-        return Err(Problems::new(sources, desk.problems));
-    }
-    let scenario = read_kind(&tree, &mut desk)
-        .and_then(|()| Scenario::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut desk));
-    let Some(scenario) = scenario.filter(|_| desk.problems.is_empty()) else {
-        return Err(Problems::new(sources, desk.problems));
-    };
-    let wrongs = check(&scenario);
-    if wrongs.is_empty() {
-        return Ok(Read { sources, tree, scenario });
-    }
-    for wrong in wrongs {
-        let span = tree.place(&wrong.path);
-        desk.problems.push(Problem { span, what: wrong.what, expected: wrong.expected, help: wrong.help });
-    }
-    Err(Problems::new(sources, desk.problems))
 }
 
 /// A file that is of no kind is told so, and nothing else.

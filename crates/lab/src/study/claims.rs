@@ -1,0 +1,342 @@
+//! Statements, asked of the data.
+//!
+//! A statement is an expression over means of cells. How sure its verdict is comes from drawing the trials again, with
+//! replacement (the bootstrap): since every cell has the same seeds, the same trials are drawn for all cells at once. It
+//! holds where it is true of nearly every such drawing, it does not hold where it is true of nearly none, and else the
+//! trials are too few to judge.
+
+use super::execute::Results;
+use super::expression::{Expression, Mistake, Names, Selector, Value};
+use super::form::{Claim, Figure, Test};
+use super::plan::{Part, Plan, within};
+use super::tables::{RESERVED, of_cell};
+use crate::file::{Anything, Desk, Named, Node, Sources, Tree};
+use core::ops::Range;
+use space::random::{Purpose, uniform};
+use space::spelling::nearest;
+
+/// Times that the trials are drawn again.
+const DRAWINGS: usize = 400;
+/// Share of the drawings that may disagree.
+const DOUBT: f64 = 0.025;
+
+/// What the data say of a statement.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// It holds.
+    Holds,
+    /// It does not hold.
+    DoesNotHold,
+    /// It cannot be judged, for this reason.
+    CannotBeJudged(String),
+}
+
+impl Verdict {
+    /// In words.
+    pub fn words(&self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::DoesNotHold => "does not hold",
+            Self::CannotBeJudged(_) => "cannot be judged",
+        }
+    }
+}
+
+/// A statement with what came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// The number that belongs to it, or several.
+    pub number: Vec<f64>,
+    /// The 95 % interval of each.
+    pub interval: Vec<(f64, f64)>,
+    /// What the data say.
+    pub verdict: Verdict,
+    /// Share of the drawings in which it is true.
+    pub share: Option<f64>,
+}
+
+/// The cells of a part that have given levels, by index.
+pub fn matching(plan: &Plan, part: &Part, only: &[(String, Level)]) -> Vec<usize> {
+    let fits = |&cell: &usize| {
+        only.iter().all(|(name, level)| {
+            part.factors.iter().position(|factor| factor.name == *name).is_some_and(|at| {
+                let own = &part.factors[at].levels[plan.cells[cell].levels[at]];
+                match level {
+                    Level::Number(number) => own.number == Some(*number),
+                    Level::Text(text) => own.text == *text,
+                }
+            })
+        })
+    };
+    part.cells.clone().filter(fits).collect()
+}
+
+/// A level as it is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Level {
+    /// A number.
+    Number(f64),
+    /// A word.
+    Text(String),
+}
+
+/// The levels that a table of a file asks for.
+pub fn asked(only: &Named<Anything>) -> Vec<(String, Level)> {
+    let level = |(name, value): &(String, Anything)| {
+        let level = match &value.0.tree {
+            Tree::Text(text) => Level::Text(text.clone()),
+            tree => tree.number().map_or_else(|| Level::Text(tree.describe()), Level::Number),
+        };
+        (name.clone(), level)
+    };
+    only.0.iter().map(level).collect()
+}
+
+/// Where the values of expressions come from.
+struct Data<'a> {
+    plan: &'a Plan,
+    part: &'a Part,
+    /// The mean of a reading in a cell; none where there is none.
+    mean: &'a dyn Fn(usize, usize) -> Option<f64>,
+}
+
+impl Names for Data<'_> {
+    fn value(&self, name: &str, selectors: &[Selector], bytes: &Range<usize>) -> Result<Value, Mistake> {
+        let factor = |name: &str| self.part.factors.iter().position(|factor| factor.name == name);
+        let reading = self.plan.readings.iter().position(|(own, _)| own == name);
+        let known = || {
+            let readings = self.plan.readings.iter().map(|(name, _)| name.as_str());
+            readings.chain(self.part.factors.iter().map(|factor| factor.name.as_str()))
+        };
+        if reading.is_none() && factor(name).is_none() {
+            let near = nearest(name, known());
+            let help = near.map_or_else(
+                || format!("known here: {}", known().collect::<Vec<_>>().join(", ")),
+                |near| format!("did you mean `{near}`?"),
+            );
+            return Err(Mistake {
+                help,
+                ..Mistake::new(bytes.clone(), format!("no reading and no factor is called `{name}`"))
+            });
+        }
+        let mut only = Vec::new();
+        for selector in selectors {
+            let Some(at) = factor(&selector.factor) else {
+                let names = self.part.factors.iter().map(|factor| factor.name.as_str());
+                let near = nearest(&selector.factor, names);
+                let help = near.map_or_else(String::new, |near| format!("did you mean `{near}`?"));
+                let what = format!("no factor is called `{}`", selector.factor);
+                return Err(Mistake { help, ..Mistake::new(selector.bytes.clone(), what) });
+            };
+            let level = match &selector.level {
+                Value::Number(number) => Level::Number(*number),
+                Value::Text(text) => Level::Text(text.clone()),
+                other => Level::Text(other.describe()),
+            };
+            let own = &self.part.factors[at].levels;
+            let there = own.iter().any(|own| match &level {
+                Level::Number(number) => own.number == Some(*number),
+                Level::Text(text) => own.text == *text,
+            });
+            if !there {
+                let levels: Vec<&str> = own.iter().map(|level| level.text.as_str()).collect();
+                let what = format!("`{}` has no such level", selector.factor);
+                let help = format!("it has {}", levels.join(", "));
+                return Err(Mistake { help, ..Mistake::new(selector.bytes.clone(), what) });
+            }
+            only.push((selector.factor.clone(), level));
+        }
+        let cells = matching(self.plan, self.part, &only);
+        let of = |&cell: &usize| match (reading, factor(name)) {
+            (Some(reading), _) => (self.mean)(cell, reading).map(Value::Number).ok_or_else(|| {
+                let what = format!("`{name}` has no value in the cell {}", self.plan.name_of(&self.plan.cells[cell]));
+                Mistake::new(bytes.clone(), what)
+            }),
+            (None, at) => {
+                let at = at.unwrap_or(0);
+                let level = &self.part.factors[at].levels[self.plan.cells[cell].levels[at]];
+                Ok(level.number.map_or_else(|| Value::Text(level.text.clone()), Value::Number))
+            }
+        };
+        match cells.as_slice() {
+            [] => Err(Mistake::new(bytes.clone(), "no cell has these levels together")),
+            [one] => of(one),
+            cells => cells.iter().map(of).collect::<Result<_, _>>().map(Value::List),
+        }
+    }
+}
+
+/// Notes what is wrong with the names, figures, tests and statements of a part.
+pub(super) fn check(plan: &Plan, part: usize, tree: &Node, sources: &Sources, desk: &mut Desk) {
+    let part = &plan.parts[part];
+    names_are_free(plan, part, tree, desk);
+    let readings: Vec<&str> = plan.readings.iter().map(|(name, _)| name.as_str()).collect();
+    let factors: Vec<&str> = part.factors.iter().map(|factor| factor.name.as_str()).collect();
+    let mut known = |what: &str, name: &str, among: &[&str], place: String| {
+        if !among.contains(&name) {
+            let help = nearest(name, among.iter().copied())
+                .map_or_else(|| format!("there is {}", among.join(", ")), |near| format!("did you mean `{near}`?"));
+            desk.problem(&tree.place(&place), format!("no {what} is called `{name}`"), "not known", help);
+        }
+    };
+    for (k, Figure { y, x, lines, only, .. }) in part.figures.iter().enumerate() {
+        for (n, name) in y.iter().enumerate() {
+            known("reading", name, &readings, format!("figure.{k}.y.{n}"));
+        }
+        known("factor", x, &factors, format!("figure.{k}.x"));
+        if let Some(lines) = lines {
+            known("factor", lines, &factors, format!("figure.{k}.lines"));
+        }
+        only.0.iter().for_each(|(name, _)| known("factor", name, &factors, format!("figure.{k}.only.{name}")));
+    }
+    for (k, Test { y, between, only, each }) in part.tests.iter().enumerate() {
+        known("reading", y, &readings, format!("test.{k}.y"));
+        known("factor", between, &factors, format!("test.{k}.between"));
+        only.0.iter().for_each(|(name, _)| known("factor", name, &factors, format!("test.{k}.only.{name}")));
+        for (n, name) in each.iter().enumerate() {
+            known("factor", name, &factors, format!("test.{k}.each.{n}"));
+        }
+    }
+    // with any numbers, an expression must have a value
+    let any = |_: usize, _: usize| Some(1.0);
+    let data = Data { plan, part, mean: &any };
+    for (k, claim) in part.claims.iter().enumerate() {
+        for (key, text, truth) in [("number", &claim.number, false), ("holds", &claim.holds, true)] {
+            let Some(text) = text else { continue };
+            let value = Expression::parse(text).and_then(|expression| {
+                let value = expression.value(&data)?;
+                let fits = if truth { value.truth().is_some() } else { numbers(&value).is_some() };
+                let wanted = if truth { "true or false" } else { "a number" };
+                let what = || format!("`{key}` must give {wanted}, found {}", value.describe());
+                if fits { Ok(()) } else { Err(Mistake::new(0..text.len(), what())) }
+            });
+            if let Err(mistake) = value {
+                let place = within(sources, &tree.place(&format!("claim.{k}.{key}")), &mistake.bytes);
+                desk.problem(&place, format!("`{}`: {}", claim.id, mistake.what), "", mistake.help);
+            }
+        }
+    }
+}
+
+/// Names are used in expressions and as names of columns.
+fn names_are_free(plan: &Plan, part: &Part, tree: &Node, desk: &mut Desk) {
+    let word = |name: &str| {
+        name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+            && name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+    };
+    let factors = part.factors.iter().map(|factor| ("factor", factor.name.as_str()));
+    let readings = plan.readings.iter().map(|(name, _)| ("reading", name.as_str()));
+    let mut seen: Vec<&str> = Vec::new();
+    for (key, name) in factors.chain(readings) {
+        let place = super::plan::entry_place(tree, key, name);
+        if !word(name) {
+            desk.problem(&place, format!("`{name}` cannot be a name"), "names have letters, digits and `_`", "");
+        } else if RESERVED.contains(&name) {
+            let what = format!("a column of the tables is called `{name}` already");
+            desk.problem(&place, what, "another name", "");
+        } else if seen.contains(&name) {
+            desk.problem(&place, format!("`{name}` is both a factor and a reading"), "another name", "");
+        }
+        seen.push(name);
+    }
+}
+
+fn numbers(value: &Value) -> Option<Vec<f64>> {
+    match value {
+        Value::Number(number) => Some(vec![*number]),
+        Value::List(list) => list.iter().map(Value::number).collect(),
+        _ => None,
+    }
+}
+
+/// The drawings of the trials of a study: how often each trial is in each.
+#[derive(Clone, Debug)]
+pub struct Drawings {
+    /// `[drawings][trials]`.
+    counts: Vec<Vec<f64>>,
+}
+
+impl Drawings {
+    /// Of so many trials.
+    pub fn of(seed: u64, trials: usize) -> Self {
+        let drawing = |k: usize| {
+            let mut counts = vec![0.0; trials];
+            for n in 0..trials {
+                let drawn = (uniform(seed, Purpose::Search, k as u64, n as u32) * trials as f64) as usize;
+                counts[drawn.min(trials - 1)] += 1.0;
+            }
+            counts
+        };
+        Self { counts: (0..DRAWINGS).map(drawing).collect() }
+    }
+}
+
+/// Judges a statement of a part.
+pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawings: &Drawings) -> Judged {
+    // trials of a cell as columns, made once
+    let values = |cell: usize, reading: usize| {
+        of_cell(plan, results, cell).map(move |(trial, values)| (trial, values[reading])).filter(|(_, v)| v.is_finite())
+    };
+    let mean = |cell: usize, reading: usize| {
+        let (sum, count) = values(cell, reading).fold((0.0, 0.0), |(sum, count), (_, v)| (sum + v, count + 1.0));
+        (count > 0.0).then(|| sum / count)
+    };
+    let data = Data { plan, part, mean: &mean };
+    let evaluated = |text: &Option<String>, data: &Data<'_>| {
+        let text = text.as_ref()?;
+        Some(Expression::parse(text).and_then(|expression| expression.value(data)))
+    };
+    let number = match evaluated(&claim.number, &data) {
+        Some(Ok(value)) => numbers(&value).unwrap_or_default(),
+        _ => Vec::new(),
+    };
+    let truth = match evaluated(&claim.holds, &data) {
+        None => Err("nothing was said of when it holds".to_owned()),
+        Some(Ok(value)) => value.truth().ok_or_else(|| "it is neither true nor false".to_owned()),
+        Some(Err(mistake)) => Err(mistake.what),
+    };
+    let fewest = part.cells.clone().map(|cell| of_cell(plan, results, cell).count()).min().unwrap_or(0);
+    let (mut drawn, mut held) = (vec![Vec::new(); number.len()], 0.0);
+    for counts in &drawings.counts {
+        let mean = |cell: usize, reading: usize| {
+            let weighted = values(cell, reading).map(|(trial, v)| (v, counts.get(trial - 1).copied().unwrap_or(0.0)));
+            let (sum, count) =
+                weighted.fold((0.0, 0.0), |(sum, count), (v, weight)| (sum + v * weight, count + weight));
+            if count > 0.0 { Some(sum / count) } else { mean(cell, reading) }
+        };
+        let data = Data { plan, part, mean: &mean };
+        if let Some(Ok(value)) = evaluated(&claim.number, &data) {
+            numbers(&value).unwrap_or_default().into_iter().zip(&mut drawn).for_each(|(x, list)| list.push(x));
+        }
+        if let Some(Ok(value)) = evaluated(&claim.holds, &data)
+            && value.truth() == Some(true)
+        {
+            held += 1.0;
+        }
+    }
+    let share = held / drawings.counts.len().max(1) as f64;
+    let verdict = match truth {
+        Err(what) => Verdict::CannotBeJudged(what),
+        Ok(_) if fewest < 2 => Verdict::CannotBeJudged("a single trial says nothing of how sure it is".to_owned()),
+        Ok(true) if share >= 1.0 - DOUBT => Verdict::Holds,
+        Ok(false) if share <= DOUBT => Verdict::DoesNotHold,
+        Ok(truth) => {
+            let is = if truth { "true" } else { "false" };
+            let what = format!("{is} of the means, but true in {:.0} % of the drawings", 100.0 * share);
+            Verdict::CannotBeJudged(what)
+        }
+    };
+    let judged = claim.holds.is_some() && !drawings.counts.is_empty();
+    Judged { number, interval: drawn.iter_mut().map(middle).collect(), verdict, share: judged.then_some(share) }
+}
+
+/// The middle 95 % of numbers.
+fn middle(numbers: &mut Vec<f64>) -> (f64, f64) {
+    numbers.retain(|x| x.is_finite());
+    numbers.sort_by(f64::total_cmp);
+    let at = |share: f64| {
+        let place = ((numbers.len() as f64 - 1.0) * share).round().max(0.0) as usize;
+        numbers.get(place).copied().unwrap_or(f64::NAN)
+    };
+    (at(DOUBT), at(1.0 - DOUBT))
+}

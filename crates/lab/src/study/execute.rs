@@ -1,0 +1,508 @@
+//! Running a study: what is missing, on all cores, into one folder.
+//!
+//! Each trial runs on one thread and ends as one record of an append-only log. So a stop at any moment loses the trials in
+//! flight and nothing else, and a study has five files however many trials it has. Tables and page are made from the log
+//! alone, in the order of the plan: they have the same bytes for any number of threads, stops and shards.
+
+use super::plan::{self, Plan};
+use super::{report, tables, trial};
+use crate::store::StoreError;
+use crate::store::folder::{self, Folder};
+use crate::store::log::Log;
+use serde_json::{Value as Json, json};
+use std::collections::{BTreeMap, HashMap};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::channel;
+
+/// The log of trials.
+pub const RESULTS: &str = "trials.log";
+/// A row for each trial of each condition.
+pub const TRIALS: &str = "trials.parquet";
+/// A row for each cell.
+pub const CELLS: &str = "cells.parquet";
+/// The page.
+pub const REPORT: &str = "report.html";
+/// Kind of a record that holds a trial.
+const TRIAL: u32 = 1;
+
+/// Which trials are wanted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// Cells, by index; none for all.
+    pub cells: Option<Vec<usize>>,
+    /// Trials, from 1; none for as many as the study says.
+    pub trials: Option<Vec<usize>>,
+    /// The part of the work that is done here: i of n.
+    pub shard: Option<(usize, usize)>,
+}
+
+impl Selection {
+    /// Whether it is the whole study.
+    pub fn whole(&self) -> bool {
+        *self == Self::default()
+    }
+    /// The trials wanted, by condition and number: first trials first, so that a study that is stopped has as many of each
+    /// condition.
+    pub fn units(&self, plan: &Plan) -> Vec<(usize, usize)> {
+        let mut trials: Vec<usize> = vec![0; plan.conditions.len()];
+        for (index, cell) in plan.cells.iter().enumerate() {
+            if self.cells.as_ref().is_none_or(|cells| cells.contains(&index)) {
+                trials[cell.condition] = trials[cell.condition].max(cell.trials);
+            }
+        }
+        let wanted = |condition: usize, trial: usize| match &self.trials {
+            Some(list) => trials[condition] > 0 && list.contains(&trial),
+            None => trial <= trials[condition],
+        };
+        let listed = self.trials.iter().flatten().copied();
+        let most = trials.iter().copied().chain(listed).max().unwrap_or(0);
+        let mut units = Vec::new();
+        for trial in 1..=most {
+            for condition in 0..plan.conditions.len() {
+                let here = self.shard.is_none_or(|(i, n)| (condition + trial) % n == i - 1);
+                if here && wanted(condition, trial) {
+                    units.push((condition, trial));
+                }
+            }
+        }
+        units
+    }
+}
+
+/// What was read off the trials of each condition, `[conditions]`, by trial.
+pub type Results = Vec<BTreeMap<usize, Vec<f64>>>;
+
+/// Who watches.
+pub trait Watch: Sync {
+    /// It begins or goes on: so many trials and updates of agents are to be done, so many trials are there already.
+    fn begin(&mut self, folder: &Path, trials: usize, updates: u64, there: usize, threads: usize);
+    /// A trial is done.
+    fn done(&mut self, updates: u64);
+    /// Whether to stop.
+    fn stopper(&self) -> fn() -> bool;
+}
+
+/// How it ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Everything that was wanted is there.
+    Complete,
+    /// It was stopped with so many trials left.
+    Stopped(usize),
+}
+
+/// What became of a study.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// How it ended.
+    pub end: End,
+    /// Trials done in this session.
+    pub trials: usize,
+    /// Updates of agents in this session.
+    pub updates: u64,
+    /// Seconds of this session.
+    pub seconds: f64,
+}
+
+/// The folder of a study: the one asked for, or one below `runs` that is free or holds the same study.
+fn place(plan: &Plan, selection: &Selection, out: Option<&Path>) -> Result<PathBuf, StoreError> {
+    if let Some(out) = out {
+        if let Some(manifest) = folder::manifest(out)? {
+            let lines = differences(plan, &manifest);
+            if !lines.is_empty() {
+                return Err(refused(out, lines));
+            }
+        }
+        return Ok(out.to_owned());
+    }
+    let name = plan.sources.name(0);
+    let stem = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("study");
+    let stem = match selection.shard {
+        Some((i, n)) => format!("{stem}-shard-{i}-of-{n}"),
+        None => stem.to_owned(),
+    };
+    for number in 1.. {
+        let path = Path::new("runs").join(if number == 1 { stem.clone() } else { format!("{stem}-{number}") });
+        if !path.exists() {
+            return Ok(path);
+        }
+        // a damaged or foreign folder is somebody's: the next number is free
+        if let Ok(Some(manifest)) = folder::manifest(&path)
+            && differences(plan, &manifest).is_empty()
+        {
+            return Ok(path);
+        }
+    }
+    Err(StoreError::Refused("no folder is free below `runs`".into()))
+}
+
+fn refused(path: &Path, mut lines: Vec<String>) -> StoreError {
+    let more = lines.len().saturating_sub(8);
+    lines.truncate(8);
+    if more > 0 {
+        lines.push(format!("and {more} more"));
+    }
+    let path = path.display();
+    let help = "cells and trials may be added, nothing else may change; choose another folder with --out";
+    StoreError::Refused(format!("`{path}` holds another study; {help}\n  {}", lines.join("\n  ")))
+}
+
+/// Where the study in a folder differs from this one, apart from cells and trials that were added.
+fn differences(plan: &Plan, manifest: &Json) -> Vec<String> {
+    if manifest.get("kind").and_then(Json::as_str) != Some("study") {
+        return vec!["it holds no study".to_owned()];
+    }
+    if manifest.get("files") == Some(&files(plan)) {
+        return Vec::new();
+    }
+    let before = match read_back(manifest) {
+        Ok(before) => before,
+        Err(what) => return vec![format!("what is there cannot be read any more: {what}")],
+    };
+    let mut lines = folder::differences(&before.identity(), &plan.identity());
+    let now: HashMap<String, &Json> = plan.identities().into_iter().collect();
+    for (name, there) in before.identities() {
+        match now.get(&name) {
+            None => lines.push(format!("the cell {name}: there, not now")),
+            Some(identity) => {
+                let changed = folder::differences(there, identity);
+                lines.extend(changed.into_iter().map(|line| format!("the cell {name}: {line}")));
+            }
+        }
+    }
+    lines
+}
+
+/// The texts that make up a study, as a manifest keeps them.
+fn files(plan: &Plan) -> Json {
+    let all = (0..).map(|k| (plan.sources.name(k), plan.sources.text(k)));
+    let texts = all.take_while(|(name, text)| !(name.is_empty() && text.is_empty()));
+    let texts = texts.filter(|(name, _)| *name != "--set");
+    let texts: Vec<Json> = texts.map(|(name, text)| json!({ "name": name, "text": text })).collect();
+    json!({ "texts": texts, "set": plan.sets, "quick": plan.quick })
+}
+
+/// The study that a manifest keeps.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn read_back(manifest: &Json) -> Result<Plan, String> {
+    let damaged = || "the manifest lacks what it should hold".to_owned();
+    let files = manifest.get("files").ok_or_else(damaged)?;
+    let texts = files.get("texts").and_then(Json::as_array).ok_or_else(damaged)?;
+    let text = |entry: &Json| {
+        let word = |key: &str| entry.get(key).and_then(Json::as_str).map(str::to_owned);
+        Some((word("name")?, word("text")?))
+    };
+    let texts: Vec<(String, String)> = texts.iter().filter_map(text).collect();
+    let sets = files.get("set").and_then(Json::as_array).ok_or_else(damaged)?;
+    let sets: Vec<String> = sets.iter().filter_map(Json::as_str).map(str::to_owned).collect();
+    let quick = files.get("quick").and_then(Json::as_bool).unwrap_or(false);
+    let (name, first) = texts.first().ok_or_else(damaged)?;
+    let mut load = |path: &str| {
+        let found = texts.iter().find(|(name, _)| name == path);
+        found.map(|(_, text)| text.clone()).ok_or_else(|| format!("`{path}` is not in the manifest"))
+    };
+    plan::read(name, first, &sets, quick, &mut load).map_err(|problems| problems.to_string())
+}
+
+/// The study in a folder.
+///
+/// # Errors
+/// A folder that holds none, or one that cannot be read.
+pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
+    let manifest = folder::manifest(path)?;
+    let Some(manifest) = manifest.filter(|m| m.get("kind").and_then(Json::as_str) == Some("study")) else {
+        return Err(StoreError::Refused(format!("`{}` is not the folder of a study", path.display())));
+    };
+    read_back(&manifest).map_err(|what| StoreError::Damaged(format!("`{}`: {what}", path.display())))
+}
+
+/// Runs what is missing of a study.
+///
+/// # Errors
+/// Where the folder is of something else, the system refuses, or a trial is impossible. What was done before stays.
+pub fn run(
+    plan: &Plan,
+    selection: &Selection,
+    threads: usize,
+    out: Option<&Path>,
+    program: &str,
+    watch: &mut dyn Watch,
+) -> Result<Outcome, StoreError> {
+    let path = place(plan, selection, out)?;
+    let folder = Folder::claim(&path)?;
+    // another process may have had the folder in the meantime
+    let before = folder::manifest(&path)?;
+    if let Some(manifest) = &before {
+        let lines = differences(plan, manifest);
+        if !lines.is_empty() {
+            return Err(refused(&path, lines));
+        }
+    }
+    let mut manifest = before.unwrap_or_else(|| json!({ "format": 1, "kind": "study", "sessions": [] }));
+    manifest["title"] = json!(plan.title);
+    manifest["files"] = files(plan);
+    manifest["status"] = json!("running");
+    if let Some(Json::Array(sessions)) = manifest.get_mut("sessions") {
+        sessions.push(crate::run::session(program, threads));
+    }
+    folder.write_manifest(&manifest)?;
+    let (mut log, mut results) = opened(&folder, plan)?;
+    let there: usize = results.iter().map(BTreeMap::len).sum();
+    let units: Vec<(usize, usize)> = selection
+        .units(plan)
+        .into_iter()
+        .filter(|(condition, trial)| !results[*condition].contains_key(trial))
+        .collect();
+    let updates = units.iter().map(|&(condition, _)| plan.conditions[condition].updates()).sum();
+    watch.begin(&path, units.len(), updates, there, threads);
+    let began = std::time::Instant::now();
+    let session = Session { plan, units: &units, threads };
+    let done = session.work(&mut log, &mut results, watch);
+    let seconds = began.elapsed().as_secs_f64();
+    let (trials, made) = match done {
+        Ok(done) => done,
+        Err(error) => {
+            manifest["status"] = json!("stopped");
+            // the first error is the one to tell
+            let _ = folder.write_manifest(&manifest);
+            return Err(error);
+        }
+    };
+    if let Some(Json::Object(session)) =
+        manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|s| s.last_mut())
+    {
+        session.insert("seconds".into(), json!(seconds));
+        session.insert("trials".into(), json!(trials));
+        session.insert("agent_updates_per_second".into(), json!(made as f64 / seconds.max(1e-9)));
+    }
+    let left = units.len() - trials;
+    let whole = Selection::default().units(plan).iter().all(|(c, trial)| results[*c].contains_key(trial));
+    manifest["status"] = json!(if whole { "complete" } else { "stopped" });
+    let outcome = |end| Outcome { folder: path.clone(), end, trials, updates: made, seconds };
+    if left > 0 {
+        folder.write_manifest(&manifest)?;
+        return Ok(outcome(End::Stopped(left)));
+    }
+    finish(&folder, plan, &results, program)?;
+    folder.write_manifest(&manifest)?;
+    Ok(outcome(End::Complete))
+}
+
+/// Joins the results of several folders of one study, as shards leave them, into another.
+///
+/// # Errors
+/// Where they are of different studies, or contradict each other, or the system refuses.
+pub fn merge(from: &[PathBuf], out: &Path, program: &str) -> Result<(Plan, usize, usize), StoreError> {
+    let mut plan: Option<Plan> = None;
+    let mut joined: Results = Vec::new();
+    for path in from {
+        let manifest = folder::manifest(path)?.unwrap_or(Json::Null);
+        let own = of_folder(path)?;
+        let (_, results) = logged(&path.join(RESULTS), &own)?;
+        let Some(plan) = &plan else {
+            plan = Some(own);
+            joined = results;
+            continue;
+        };
+        let lines = differences(plan, &manifest);
+        if !lines.is_empty() {
+            return Err(refused(path, lines));
+        }
+        for (condition, trials) in own.conditions.iter().zip(results) {
+            let Some(at) = plan.conditions.iter().position(|other| other.key == condition.key) else { continue };
+            for (trial, values) in trials {
+                match joined[at].get(&trial) {
+                    Some(there) if !same(there, &values) => {
+                        let what = "two folders differ in what they read off one trial: other program versions?";
+                        return Err(StoreError::Damaged(format!("{what} (`{}`, trial {trial})", path.display())));
+                    }
+                    _ => drop(joined[at].insert(trial, values)),
+                }
+            }
+        }
+    }
+    let Some(plan) = plan else { return Err(StoreError::Refused("nothing to merge".into())) };
+    let folder = Folder::claim(out)?;
+    if let Some(manifest) = folder::manifest(out)? {
+        let lines = differences(&plan, &manifest);
+        if !lines.is_empty() {
+            return Err(refused(out, lines));
+        }
+    }
+    let whole = Selection::default().units(&plan).iter().all(|(c, trial)| joined[*c].contains_key(trial));
+    let manifest = json!({
+        "format": 1,
+        "kind": "study",
+        "title": plan.title,
+        "files": files(&plan),
+        "status": if whole { "complete" } else { "stopped" },
+        "merged": from.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
+        "sessions": [],
+    });
+    folder.write_manifest(&manifest)?;
+    let (mut log, there) = opened(&folder, &plan)?;
+    for (condition, trials) in joined.iter().enumerate() {
+        for (&trial, values) in trials {
+            if !there[condition].contains_key(&trial) {
+                log.append(TRIAL, &packed(plan.conditions[condition].key, trial, values))?;
+            }
+        }
+    }
+    drop(log);
+    let (_, results) = logged(&folder.file(RESULTS), &plan)?;
+    finish(&folder, &plan, &results, program)?;
+    let trials = results.iter().map(BTreeMap::len).sum();
+    let left = Selection::default().units(&plan).iter().filter(|(c, trial)| !results[*c].contains_key(trial)).count();
+    Ok((plan, trials, left))
+}
+
+/// Makes the page of a folder anew.
+///
+/// # Errors
+/// A folder that holds no study, or cannot be written to.
+pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
+    let plan = of_folder(path)?;
+    let folder = Folder::claim(path)?;
+    let (_, results) = opened(&folder, &plan)?;
+    finish(&folder, &plan, &results, program)
+}
+
+/// Tables and page from what is there.
+fn finish(folder: &Folder, plan: &Plan, results: &Results, program: &str) -> Result<(), StoreError> {
+    tables::write(folder, plan, results)?;
+    let page = report::page(plan, results, program);
+    let html = crate::report::html(&page);
+    let path = folder.file(REPORT);
+    folder.write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+}
+
+fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, Results), StoreError> {
+    let path = folder.file(RESULTS);
+    if !path.exists() {
+        return Ok((Log::create(&path)?, vec![BTreeMap::new(); plan.conditions.len()]));
+    }
+    logged(&path, plan)
+}
+
+/// The log with what it holds of the plan's conditions. A torn tail is cut off.
+fn logged(path: &Path, plan: &Plan) -> Result<(Log, Results), StoreError> {
+    let (mut log, records) = Log::open(path)?;
+    log.keep_until(records.last())?;
+    let place: HashMap<[u64; 2], usize> = plan.conditions.iter().enumerate().map(|(k, c)| (c.key, k)).collect();
+    let mut results = vec![BTreeMap::new(); plan.conditions.len()];
+    for record in records.iter().filter(|record| record.kind == TRIAL) {
+        let (key, trial, values) = unpacked(&log.read(record)?)
+            .ok_or_else(|| StoreError::Damaged(format!("a record in `{}` is no trial", path.display())))?;
+        if let Some(&condition) = place.get(&key)
+            && values.len() == plan.readings.len()
+        {
+            results[condition].insert(trial, values);
+        }
+    }
+    Ok((log, results))
+}
+
+fn packed(key: [u64; 2], trial: usize, values: &[f64]) -> Vec<u8> {
+    let head = [key[0], key[1], trial as u64];
+    let words = head.into_iter().chain(values.iter().map(|value| value.to_bits()));
+    words.flat_map(u64::to_le_bytes).collect()
+}
+
+fn unpacked(bytes: &[u8]) -> Option<([u64; 2], usize, Vec<f64>)> {
+    let words: Vec<u64> = bytes.chunks_exact(8).map(|w| u64::from_le_bytes(core::array::from_fn(|k| w[k]))).collect();
+    let [first, second, trial, values @ ..] = words.as_slice() else { return None };
+    Some(([*first, *second], usize::try_from(*trial).ok()?, values.iter().map(|&bits| f64::from_bits(bits)).collect()))
+}
+
+/// Whether two trials read the same, missing values included.
+fn same(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
+/// The work of one session.
+struct Session<'a> {
+    plan: &'a Plan,
+    units: &'a [(usize, usize)],
+    threads: usize,
+}
+
+impl Session<'_> {
+    /// Does the units, on so many threads; how many were done, with their updates of agents.
+    fn work(&self, log: &mut Log, results: &mut Results, watch: &mut dyn Watch) -> Result<(usize, u64), StoreError> {
+        let (next, over) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let asked = watch.stopper();
+        let stop = || over.load(Ordering::Relaxed) || asked();
+        let (to, from) = channel();
+        std::thread::scope(|scope| {
+            for _ in 0..self.threads.min(self.units.len()) {
+                let to = to.clone();
+                let (next, stop) = (&next, &stop);
+                scope.spawn(move || {
+                    while !stop() {
+                        let Some(&(condition, trial)) = self.units.get(next.fetch_add(1, Ordering::Relaxed)) else {
+                            return;
+                        };
+                        let seed = self.plan.seed_of(trial);
+                        let read = trial::run(self.plan, &self.plan.conditions[condition], seed, stop);
+                        let ended = matches!(read, Ok(None));
+                        if to.send((condition, trial, read)).is_err() || ended {
+                            return;
+                        }
+                    }
+                });
+            }
+            drop(to);
+            let (mut done, mut updates) = (0, 0);
+            let mut failure = None;
+            for (condition, trial, read) in from {
+                let kept = match read {
+                    Ok(None) => continue,
+                    Ok(Some(values)) => {
+                        let bytes = packed(self.plan.conditions[condition].key, trial, &values);
+                        log.append(TRIAL, &bytes).map(|_| values)
+                    }
+                    Err(what) => {
+                        let cell = self.plan.cells.iter().find(|cell| cell.condition == condition);
+                        let cell = cell.map_or_else(String::new, |cell| self.plan.name_of(cell));
+                        Err(StoreError::Refused(format!("trial {trial} of the cell {cell}: {what}")))
+                    }
+                };
+                match kept {
+                    Ok(values) => {
+                        results[condition].insert(trial, values);
+                        done += 1;
+                        let made = self.plan.conditions[condition].updates();
+                        updates += made;
+                        watch.done(made);
+                    }
+                    Err(error) => {
+                        // the others stop; what they have done is kept
+                        over.store(true, Ordering::Relaxed);
+                        failure.get_or_insert(error);
+                    }
+                }
+            }
+            failure.map_or(Ok((done, updates)), Err)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_trial_is_packed_and_unpacked() {
+        let values = [1.5, f64::NAN, -0.0];
+        let (key, trial, read) = unpacked(&packed([3, u64::MAX], 7, &values)).unwrap_or_default();
+        assert_eq!((key, trial), ([3, u64::MAX], 7));
+        assert!(same(&read, &values) && !same(&read, &[1.5, f64::NAN, 0.0]));
+        assert!(unpacked(&[0; 16]).is_none());
+    }
+}

@@ -1,0 +1,380 @@
+//! The forms of a study file: what is varied, how often it is tried, what is read off, what is claimed.
+
+use crate::file::{Anything, Named, Nothing};
+use crate::{form, tagged, words};
+
+words! {
+    /// What kind of file it is.
+    pub enum FileKind {
+        /// Many worlds, one scenario, varied.
+        Study = "study",
+    }
+}
+
+form! {
+    /// Numbers with equal steps between them.
+    pub struct Steps {
+        /// The first.
+        from: f64 = need, "", Any;
+        /// The last; one that the steps do not meet is left out.
+        to: f64 = need, "", Any;
+        /// The step.
+        by: f64 = need, "", Positive;
+    }
+}
+
+form! {
+    /// Something that is varied: a value of the scenario by its path, or several at once by levels with names.
+    pub struct Factor {
+        /// What it is, for axes and tables; left out, the factor's name.
+        about: String = [""], "", Any;
+        /// Its unit.
+        unit: String = [""], "", Any;
+        /// The path of the value, as in `group.fish.count`. Without path and levels it is a number for `define` and
+        /// `derive` alone.
+        path: Option<String> = none, "", Any;
+        /// The values, its levels.
+        values: Option<Vec<Anything>> = none, "", Any;
+        /// Numbers with equal steps, in place of `values`.
+        steps: Option<Steps> = none, "", Any;
+        /// Least and greatest value, for the designs that draw.
+        range: Option<Vec<f64>> = none, "", Any;
+        /// Whether values drawn from the range are rounded to whole numbers.
+        whole: bool = [false], "", Any;
+        /// Levels by names of yours: each is a table of paths and values. A level named like one of `values` says how
+        /// that value is put into the scenario, in place of the path.
+        level: Named<Anything> = [Named::default()], "", Any;
+    }
+}
+
+form! {
+    /// So many cells.
+    pub struct Samples {
+        /// Number of cells.
+        samples: usize = need, "1", Within(1.0, 100_000.0);
+    }
+}
+
+tagged! {
+    /// How the levels of the factors make cells.
+    pub enum Design {
+        /// Every level with every other.
+        full => Full(Nothing);
+        /// The first levels together, the second levels together, and so on.
+        zip => Zip(Nothing);
+        /// Drawn so that each factor's range is covered evenly: one value from each of so many equal parts.
+        latin_hypercube => LatinHypercube(Samples);
+        /// Drawn, each cell for itself: more samples add cells and change none.
+        random => Random(Samples);
+        /// Cell by cell: a list of tables with a value for every factor.
+        table => Table(Vec<Named<Anything>>);
+    }
+}
+
+form! {
+    /// When a trial is looked at.
+    pub struct Window {
+        /// Time of the first look; left out, one interval after the start.
+        from: Option<f64> = none, "time", NonNegative;
+        /// Time between two looks.
+        interval: f64 = need, "time", Positive;
+    }
+}
+
+form! {
+    /// A metric of `flockworks metrics`, its mean over the looks.
+    pub struct MetricReading {
+        /// The metric.
+        id: String = need, "", Any;
+        /// Its parameters.
+        parameters: Named<f64> = [Named::default()], "", Positive;
+        /// What it is multiplied by, as 100 for percent.
+        scale: f64 = [1.0], "", Any;
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
+    }
+}
+
+words! {
+    /// Whose readings they are.
+    pub enum Whose {
+        /// Of everyone.
+        Everyone = "everyone",
+        /// Of the largest cluster.
+        LargestCluster = "largest_cluster",
+    }
+}
+
+form! {
+    /// The share of members in a named state of the model, over all members and looks.
+    pub struct ShareReading {
+        /// The column of the model, as `behaviour`.
+        column: String = need, "", Any;
+        /// The state, as `align`.
+        state: String = need, "", Any;
+        /// What it is multiplied by, as 100 for percent.
+        scale: f64 = [1.0], "", Any;
+        /// Of whom.
+        of: Whose = [Whose::Everyone], "", Any;
+        /// Members at most this far apart are of one cluster.
+        linking_distance: f64 = [25.0], "length", Positive;
+    }
+}
+
+form! {
+    /// The mean of a quantity or count of the model, over all members and looks.
+    pub struct ColumnReading {
+        /// The column of the model, as `n_align`.
+        column: String = need, "", Any;
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+    }
+}
+
+words! {
+    /// What was met.
+    pub enum Partner {
+        /// Anything.
+        Anything = "anything",
+        /// Another member.
+        Members = "members",
+        /// An obstacle.
+        Obstacles = "obstacles",
+        /// A wall.
+        Walls = "walls",
+    }
+}
+
+form! {
+    /// Contacts in the whole trial; where bodies refuse moves that would touch, these are the refused moves.
+    pub struct ContactReading {
+        /// What was met.
+        with: Partner = [Partner::Anything], "", Any;
+        /// Whether contacts that follow one of the same member in the step before count as one with it.
+        events: bool = [false], "", Any;
+        /// Scaled to so many updates of agents; left out, not scaled.
+        per_updates: Option<f64> = none, "1", Positive;
+    }
+}
+
+form! {
+    /// The share of the space that was visited: of equal cells, those in which at least a share of the members was seen.
+    /// In percent.
+    pub struct CoverageReading {
+        /// Cells along each axis; the space must end on every axis.
+        cells: usize = need, "1", Within(1.0, 1000.0);
+        /// Share of the members that must have been seen in a cell.
+        share: f64 = [0.3], "1", Within(0.0, 1.0);
+        /// Whether they must be there at once: then it is the mean over the looks. Else different members seen at any
+        /// look count together.
+        at_once: bool = [false], "", Any;
+        /// Time of the first look, where it differs.
+        from: Option<f64> = none, "time", NonNegative;
+    }
+}
+
+words! {
+    /// What is read off the largest cluster.
+    pub enum ClusterQuantity {
+        /// Length of its members' mean displacement between two looks, per time.
+        Speed = "speed",
+        /// Length of the mean heading of its members.
+        Polarisation = "polarisation",
+        /// How much it turns about its centre.
+        AngularMomentum = "angular_momentum",
+        /// Number of its members.
+        Members = "members",
+        /// Mean squared distance of its members to their centre.
+        Expanse = "expanse",
+        /// Mean angle between the heading of a member and the mean heading, in degrees.
+        AngularDeviation = "angular_deviation",
+    }
+}
+
+form! {
+    /// Something of the largest cluster, its mean over the looks. Ties go to the cluster of the lowest member.
+    pub struct ClusterReading {
+        /// What.
+        quantity: ClusterQuantity = need, "", Any;
+        /// Members at most this far apart are linked; clusters are what hangs together.
+        linking_distance: f64 = need, "length", Positive;
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+    }
+}
+
+words! {
+    /// What is read off the paths between two looks.
+    pub enum PathQuantity {
+        /// Mean angle between consecutive headings over mean distance moved, in degrees per length.
+        Curvature = "curvature",
+        /// Speed of the centre of all members.
+        GroupSpeed = "group_speed",
+    }
+}
+
+form! {
+    /// Something of the members' paths.
+    pub struct PathReading {
+        /// What.
+        quantity: PathQuantity = need, "", Any;
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+    }
+}
+
+form! {
+    /// Mean distance from the centre of an obstacle to that of its nearest neighbour, at the start.
+    pub struct ObstacleReading {
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+    }
+}
+
+tagged! {
+    /// What is read off a trial: one number.
+    pub enum Quantity {
+        /// A metric.
+        metric => Metric(MetricReading);
+        /// A share of a state.
+        share => Share(ShareReading);
+        /// A mean of a column.
+        column => Column(ColumnReading);
+        /// Contacts.
+        contacts => Contacts(ContactReading);
+        /// Coverage of the space.
+        coverage => Coverage(CoverageReading);
+        /// Something of the largest cluster.
+        cluster => Cluster(ClusterReading);
+        /// Something of the paths.
+        path => Path(PathReading);
+        /// The distance between obstacles.
+        obstacle_distance => ObstacleDistance(ObstacleReading);
+    }
+}
+
+form! {
+    /// A number that is kept of every trial.
+    pub struct Reading {
+        /// What it is, for axes and tables; left out, its name.
+        about: String = [""], "", Any;
+        /// Its unit, for axes and tables.
+        unit: String = [""], "", Any;
+        /// What is read.
+        of: Quantity = need, "", Any;
+    }
+}
+
+form! {
+    /// A figure: means over trials with their standard errors.
+    pub struct Figure {
+        /// Title.
+        title: String = need, "", Any;
+        /// A sentence below it.
+        about: String = [""], "", Any;
+        /// The reading on the vertical axis.
+        y: Vec<String> = need, "", Any;
+        /// The factor on the horizontal axis.
+        x: String = need, "", Any;
+        /// A line for each level of this factor.
+        lines: Option<String> = none, "", Any;
+        /// Only cells with these levels.
+        only: Named<Anything> = [Named::default()], "", Any;
+    }
+}
+
+form! {
+    /// A test whether a reading differs between the levels of a factor: one-way analysis of variance with Tukey-Kramer
+    /// comparisons of all pairs, and the same with trials as blocks, since all cells have the same seeds.
+    pub struct Test {
+        /// The reading.
+        y: String = need, "", Any;
+        /// The factor whose levels are compared.
+        between: String = need, "", Any;
+        /// Only cells with these levels.
+        only: Named<Anything> = [Named::default()], "", Any;
+        /// A test for each combination of levels of these factors.
+        each: Vec<String> = [Vec::new()], "", Any;
+    }
+}
+
+words! {
+    /// How firmly a statement is expected.
+    pub enum Strength {
+        /// It must hold.
+        A = "A",
+        /// It is expected.
+        B = "B",
+        /// It is reported, whatever comes.
+        C = "C",
+    }
+}
+
+form! {
+    /// A statement that the data are asked about.
+    pub struct Claim {
+        /// Its name.
+        id: String = need, "", Any;
+        /// The statement.
+        text: String = need, "", Any;
+        /// Where it is made.
+        source: String = [""], "", Any;
+        /// How firmly it is expected.
+        strength: Strength = [Strength::B], "", Any;
+        /// A number that belongs to it: an expression over readings, as `coverage[variant = prob, N = 6]`.
+        number: Option<String> = none, "", Any;
+        /// What the source says that number is.
+        published: String = [""], "", Any;
+        /// When it holds: an expression that is true or false.
+        holds: Option<String> = none, "", Any;
+    }
+}
+
+form! {
+    /// A study: a scenario, varied and repeated, with what is read off, tested and claimed.
+    pub struct Study {
+        /// What kind of file this is.
+        kind: FileKind = need, "", Any;
+        /// A title of a few words.
+        title: String = need, "", Any;
+        /// What it is and what it asks; paragraphs are parted by empty lines.
+        about: String = [""], "", Any;
+        /// A study file whose keys hold where this one has none of its own; tables are joined key by key.
+        extends: Option<String> = none, "", Any;
+        /// Study files that make up this one: each is a part, equal conditions are computed once.
+        parts: Vec<String> = [Vec::new()], "", Any;
+        /// Trial t has the seed of the study plus t, in every cell.
+        seed: u64 = [0u64], "1", NonNegative;
+        /// Trials in each cell.
+        trials: usize = [10usize], "1", Within(1.0, 1_000_000.0);
+        /// Trials in each cell with `--quick`.
+        quick_trials: usize = [5usize], "1", Within(1.0, 1_000_000.0);
+        /// The scenario: the name of a file beside this one, or the scenario itself as a table.
+        scenario: Option<Anything> = none, "", Any;
+        /// Values put over the scenario's. Tables are joined key by key; a path in quotes puts its value as it is.
+        set: Anything = [crate::study::form::empty()], "", Any;
+        /// Names for expressions, in order.
+        define: Named<String> = [Named::default()], "", Any;
+        /// Values of the scenario that follow from others: path = expression, in order.
+        derive: Named<String> = [Named::default()], "", Any;
+        /// What is varied, by names of yours.
+        factor: Named<Factor> = [Named::default()], "", Any;
+        /// How cells are made of levels.
+        design: Design = [Design::Full(Nothing)], "", Any;
+        /// When a trial is looked at; left out, as the scenario measures.
+        looks: Option<Window> = none, "", Any;
+        /// What is read off each trial, by names of yours; left out, what the scenario measures.
+        reading: Named<Reading> = [Named::default()], "", Any;
+        /// Figures of the page.
+        figure: Vec<Figure> = [Vec::new()], "", Any;
+        /// Tests.
+        test: Vec<Test> = [Vec::new()], "", Any;
+        /// Statements to be judged.
+        claim: Vec<Claim> = [Vec::new()], "", Any;
+    }
+}
+
+/// A table without keys.
+pub(crate) fn empty() -> Anything {
+    Anything(crate::file::Node { tree: crate::file::Tree::Table(Vec::new()), span: crate::file::Span::default() })
+}

@@ -1,0 +1,19 @@
+//! Studies: one scenario, varied and repeated.
+//!
+//! A study file names a scenario, factors with their levels, a design that makes cells of them, and what is read off each
+//! trial. [`plan`] makes cells and conditions of it, [`execute`] runs what is missing and keeps it in an append-only log,
+//! [`tables`] writes the tables, [`claims`] judges statements, [`report`] draws the page.
+
+pub mod claims;
+pub mod execute;
+pub mod expression;
+pub mod form;
+pub mod plan;
+pub mod report;
+pub mod tables;
+pub mod trial;
+
+pub use plan::{Plan, read};
+
+/// A commented study to start from.
+pub const TEMPLATE: &str = include_str!("template.toml");
