@@ -130,7 +130,10 @@ fn other_searches_run_and_go_on() {
     let to = from + template[from..].find("\n# The scenario").unwrap();
     for (name, search) in [
         ("cma", "search.cma_es = { candidates = 4 }"),
-        ("elites", "search.map_elites = { candidates = 4, cells = 9, random_generations = 1, kind.width = { of = \"attraction\", low = 1, high = 14 } }"),
+        (
+            "elites",
+            "search.map_elites = { candidates = 4, cells = 9, random_generations = 1, kind.width = { of = \"attraction\", low = 1, high = 14 } }",
+        ),
     ] {
         // a key of the top level stands before the tables
         let text = format!("{search}\n{}{}", &template[..from], &template[to..]);
@@ -161,7 +164,7 @@ fn mistakes_are_shown_at_their_place() {
         ("fitness=\"sum(health[group = green])\"", "unknown name `green`"),
         ("keep.meals=\"meals\"", "not a number"),
         ("gene.c.path=\"group.red.model.competing_flocks.chromosom\"", "names no value"),
-        ("gene.c.low=2000", "low"),
+        ("gene.c.low=2000", "is not between 1000 and 2000"),
         ("search.genetic.elite=4", "elite"),
         ("search.genetic.mutation_rate=2", "mutation_rate"),
         ("generations=0", "generations"),

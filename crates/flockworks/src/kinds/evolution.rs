@@ -44,7 +44,11 @@ impl Kind for Evolution {
     fn check(&self, input: &Input) -> Result<String, Fault> {
         let plan = read(input, false)?;
         let (runs, genes) = (plan.form.runs, plan.axes.len());
-        Ok(format!("{genes} genes, {} generations, {runs} {}", plan.generations, if runs == 1 { "run" } else { "runs" }))
+        Ok(format!(
+            "{genes} genes, {} generations, {runs} {}",
+            plan.generations,
+            if runs == 1 { "run" } else { "runs" }
+        ))
     }
     fn run(&self, mut input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
         if let Some(option) = options.study.given() {

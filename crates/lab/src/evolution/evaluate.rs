@@ -210,9 +210,15 @@ pub fn check(plan: &Plan) -> Vec<(String, Mistake)> {
     let Some(shared) = &plan.shared else {
         let genes = plan.reference();
         let read = vec![1.0; plan.readings.readings.len()];
-        let mut ask = |key: String, expression: &Expression| match expression.value(&Readings { plan, genes: &genes, read: &read }) {
+        let mut ask = |key: String, expression: &Expression| match expression.value(&Readings {
+            plan,
+            genes: &genes,
+            read: &read,
+        }) {
             Ok(Value::Number(_)) => {}
-            Ok(other) => mistakes.push((key, Mistake::new(0..0, format!("it gives {}, not a number", other.describe())))),
+            Ok(other) => {
+                mistakes.push((key, Mistake::new(0..0, format!("it gives {}, not a number", other.describe()))))
+            }
             Err(mistake) => mistakes.push((key, mistake)),
         };
         ask("fitness".to_owned(), &plan.fitness);

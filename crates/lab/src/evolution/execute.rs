@@ -222,8 +222,7 @@ fn finish(folder: &Folder, plan: &Plan, runs: &[Run], program: &str) -> Result<(
 /// The best champion of all runs as a scenario file; who shared a world has the whole group.
 pub fn champion(plan: &Plan, runs: &[Run]) -> Option<String> {
     let champions = runs.iter().enumerate().filter_map(|(k, run)| run.champion(plan).map(|found| (k, found)));
-    let (run, (genes, score)) =
-        champions.reduce(|best, other| if other.1.1 > best.1.1 { other } else { best })?;
+    let (run, (genes, score)) = champions.reduce(|best, other| if other.1.1 > best.1.1 { other } else { best })?;
     let mut tree = match plan.shared {
         Some(_) => {
             let mut tree = plan.tree.clone();
@@ -348,7 +347,8 @@ impl Searching {
                 })
             }
             Search::CmaEs(form) => {
-                let scores: Vec<Vec<f64>> = there.iter().map(|generation| generation.evaluated.scores.clone()).collect();
+                let scores: Vec<Vec<f64>> =
+                    there.iter().map(|generation| generation.evaluated.scores.clone()).collect();
                 Self::Strategy(EvolutionStrategy::resume(domain, plan.strategy(form), seed, &scores)?)
             }
             Search::MapElites(form) => {

@@ -134,8 +134,7 @@ impl Plan {
         };
         Operators {
             selection,
-            crossover: crossover::find(&genetic.crossover)
-                .unwrap_or_else(|| Box::new(crossover::one_point::OnePoint)),
+            crossover: crossover::find(&genetic.crossover).unwrap_or_else(|| Box::new(crossover::one_point::OnePoint)),
             mutation,
             mutation_rate: genetic.mutation_rate,
             elite: genetic.elite,

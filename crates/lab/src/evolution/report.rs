@@ -13,8 +13,11 @@ const POINTS: usize = 500;
 
 /// The page.
 pub fn page(plan: &Plan, runs: &[Run], program: &str) -> Page {
-    let champions: Vec<(usize, &[f64], f64)> =
-        runs.iter().enumerate().filter_map(|(k, run)| run.champion(plan).map(|(genes, score)| (k, genes, score))).collect();
+    let champions: Vec<(usize, &[f64], f64)> = runs
+        .iter()
+        .enumerate()
+        .filter_map(|(k, run)| run.champion(plan).map(|(genes, score)| (k, genes, score)))
+        .collect();
     let mut figures = vec![
         fitness(plan, runs, "fitness-mean", "Mean fitness of a generation", |spread| spread.mean),
         fitness(plan, runs, "fitness-best", "Best fitness of a generation", |spread| spread.best),
@@ -144,7 +147,12 @@ fn summary(plan: &Plan, runs: &[Run], champions: &[(usize, &[f64], f64)]) -> Vec
     match mean_interval(&slopes, 0.95) {
         Ok(interval) => facts.push(fact(
             "Slope of the mean fitness per 1000 generations, over runs",
-            format!("{} (95 % {} to {})", short(slopes.iter().sum::<f64>() / slopes.len() as f64), short(interval.low), short(interval.high)),
+            format!(
+                "{} (95 % {} to {})",
+                short(slopes.iter().sum::<f64>() / slopes.len() as f64),
+                short(interval.low),
+                short(interval.high)
+            ),
         )),
         Err(_) => {
             if let [slope] = slopes.as_slice() {
@@ -179,9 +187,7 @@ fn methods(plan: &Plan) -> Vec<String> {
         Some(shared) => format!(
             "All candidates of a generation live in one world, new in every generation, where each owns {} of the {} \
              members of `{}`; its fitness is the mean of theirs at the end.",
-            shared.members,
-            shared.count,
-            plan.scenario.group.0[shared.group].0
+            shared.members, shared.count, plan.scenario.group.0[shared.group].0
         ),
         None => format!(
             "Each candidate is tried in {} of its own, with the same seeds for all; its fitness is the mean.",

@@ -52,9 +52,11 @@ impl Spread {
 /// Where the system refuses.
 pub fn write(folder: &Folder, plan: &Plan, runs: &[Run]) -> Result<(), StoreError> {
     let notes = [("flockworks.title".to_owned(), plan.form.title.clone())];
-    for (name, (headings, columns)) in
-        [(GENERATIONS, generations(plan, runs)), (CANDIDATES, candidates(plan, runs)), (CHAMPIONS, champions(plan, runs))]
-    {
+    for (name, (headings, columns)) in [
+        (GENERATIONS, generations(plan, runs)),
+        (CANDIDATES, candidates(plan, runs)),
+        (CHAMPIONS, champions(plan, runs)),
+    ] {
         write_table(folder, name, &headings, &columns, &notes)?;
     }
     Ok(())
@@ -131,7 +133,8 @@ fn candidates(plan: &Plan, runs: &[Run]) -> Filled {
         for (k, (name, reading)) in plan.readings.readings.iter().enumerate() {
             let about = if reading.about.is_empty() { name } else { &reading.about };
             headings.push(Heading::new(name, &reading.unit, about, Kind::Double));
-            columns.push(Values::Double(rows().map(|(_, _, candidate, one)| one.evaluated.kept[candidate][k]).collect()));
+            columns
+                .push(Values::Double(rows().map(|(_, _, candidate, one)| one.evaluated.kept[candidate][k]).collect()));
         }
     }
     (headings, columns)

@@ -579,9 +579,12 @@ impl Reader<'_> {
                 for (name, _) in factors {
                     match row.0.iter().find(|(key, _)| key == name) {
                         Some((_, value)) => puts.push(Put::of(name, &value.0)),
-                        None => {
-                            self.files.desk.problem(&at, format!("the row has no `{name}`"), "a value for every factor", "")
-                        }
+                        None => self.files.desk.problem(
+                            &at,
+                            format!("the row has no `{name}`"),
+                            "a value for every factor",
+                            "",
+                        ),
                     }
                 }
                 if let Some((other, _)) = row.0.iter().find(|(key, _)| factors.iter().all(|(name, _)| name != key)) {
@@ -676,7 +679,12 @@ impl Reader<'_> {
             (None, Some(steps)) => {
                 let count = ((steps.to - steps.from) / steps.by + 1e-9).floor();
                 if !(0.0..1e6).contains(&count) {
-                    self.files.desk.problem(place, "the steps lead nowhere", "`to` not below `from`, and not too far", "");
+                    self.files.desk.problem(
+                        place,
+                        "the steps lead nowhere",
+                        "`to` not below `from`, and not too far",
+                        "",
+                    );
                     return None;
                 }
                 let value = |k: usize| {
