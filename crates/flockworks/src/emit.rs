@@ -49,7 +49,9 @@ where
 /// Distances at which the model's sets end, and the speed at which its members begin.
 fn scales(entry: &Entry, dimension: usize) -> (Vec<f64>, f64) {
     fn of<const D: usize>(prepared: Option<Prepared<f64, D>>) -> (Vec<f64>, f64) {
-        prepared.map_or((Vec::new(), 1.0), |prepared| (prepared.set_ends(), prepared.initial_speeds().first().copied().unwrap_or(1.0)))
+        prepared.map_or((Vec::new(), 1.0), |prepared| {
+            (prepared.set_ends(), prepared.initial_speeds().first().copied().unwrap_or(1.0))
+        })
     }
     match dimension {
         1 => of(prepared::<1>(entry)),

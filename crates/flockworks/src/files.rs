@@ -1,9 +1,8 @@
 //! `flockworks new`, `schema`, `export`, `completions`, `man`: what helps with files.
 
 use crate::command::Line;
-use crate::fault::{Fault, hint, wrong};
+use crate::fault::Fault;
 use crate::kinds;
-use crate::run::read_back;
 use clap::{Args, CommandFactory, ValueEnum};
 use lab::store::folder::whole_file;
 use lab::store::table::Table as Stored;

@@ -384,21 +384,6 @@ impl Trees {
         }
         i
     }
-    /// The tree of each member, numbered from 0 in the order of their first members.
-    fn groups(&mut self) -> Vec<usize> {
-        let mut groups = 0;
-        let mut group = vec![0; self.0.len()];
-        for i in 0..self.0.len() {
-            let first = self.root(i);
-            if first == i {
-                group[i] = groups;
-                groups += 1;
-            } else {
-                group[i] = group[first];
-            }
-        }
-        group
-    }
 }
 
 /// Whether the neighbourhood of a place, three cells of this size a side, is a small part of the whole: then a grid pays.

@@ -32,6 +32,10 @@ impl Sources {
     pub fn name(&self, source: usize) -> &str {
         self.texts.get(source).map_or("", |(name, _)| name)
     }
+    /// The name of a source without folder and ending, to call a folder after; none where it has none.
+    pub fn stem(&self, source: usize) -> Option<&str> {
+        std::path::Path::new(self.name(source)).file_stem().and_then(|stem| stem.to_str())
+    }
 }
 
 /// Something wrong at a place.

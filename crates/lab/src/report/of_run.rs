@@ -94,7 +94,7 @@ pub fn page(folder: &Path, read: &Read, seed: u64, quick: bool, program: &str) -
     })
 }
 
-pub(super) fn paragraphs(text: &str) -> Vec<String> {
+pub(crate) fn paragraphs(text: &str) -> Vec<String> {
     let joined = |part: &str| part.split_whitespace().collect::<Vec<_>>().join(" ");
     text.split("\n\n").map(joined).filter(|part| !part.is_empty()).collect()
 }

@@ -128,6 +128,47 @@ pub fn manifest(path: &Path) -> Result<Option<Json>, StoreError> {
     }
 }
 
+/// The folder for what a file makes: the one asked for, or one below `runs`, called `stem`, that is free or holds the same.
+/// `what` it is, and what may be added to it, is told where it holds another; `differences` tells from a manifest where.
+///
+/// # Errors
+/// A folder asked for that holds another.
+pub fn place(
+    out: Option<&Path>,
+    stem: &str,
+    (what, may_grow): (&str, &str),
+    differences: &dyn Fn(&Json) -> Vec<String>,
+) -> Result<PathBuf, StoreError> {
+    if let Some(out) = out {
+        let lines = manifest(out)?.map_or_else(Vec::new, |manifest| differences(&manifest));
+        return if lines.is_empty() { Ok(out.to_owned()) } else { Err(other(out, (what, may_grow), lines)) };
+    }
+    for number in 1.. {
+        let path = Path::new("runs").join(if number == 1 { stem.to_owned() } else { format!("{stem}-{number}") });
+        if !path.exists() {
+            return Ok(path);
+        }
+        // a damaged or foreign folder is somebody's: the next number is free
+        if let Ok(Some(manifest)) = manifest(&path)
+            && differences(&manifest).is_empty()
+        {
+            return Ok(path);
+        }
+    }
+    Err(StoreError::Refused("no folder is free below `runs`".into()))
+}
+
+/// Says that a folder holds another study (or whatever it is), with the first lines of where it differs.
+pub fn other(path: &Path, (what, may_grow): (&str, &str), mut lines: Vec<String>) -> StoreError {
+    let more = lines.len().saturating_sub(8);
+    lines.truncate(8);
+    if more > 0 {
+        lines.push(format!("and {more} more"));
+    }
+    let help = format!("{may_grow} may be added, nothing else may change; choose another folder with --out");
+    StoreError::Refused(format!("`{}` holds another {what}; {help}\n  {}", path.display(), lines.join("\n  ")))
+}
+
 /// Where two files as resolved differ, one line for each path.
 pub fn differences(there: &Json, now: &Json) -> Vec<String> {
     let mut lines = Vec::new();

@@ -4,6 +4,7 @@ pub mod export;
 pub mod folder;
 pub mod log;
 pub mod table;
+pub mod texts;
 
 /// What can go wrong with files.
 #[derive(Debug)]

@@ -359,6 +359,38 @@ fn append<W: Write + Send>(
     to.append_column(block, close)
 }
 
+/// Rows of a block of a table that is written at once.
+const ROWS: usize = 65_536;
+
+/// Writes a whole table into a folder; `columns` are those of `headings`, all of one length.
+///
+/// # Errors
+/// Where the system refuses.
+pub fn write_table(
+    folder: &super::folder::Folder,
+    name: &str,
+    headings: &[Heading],
+    columns: &[Values],
+    notes: &[(String, String)],
+) -> Result<(), StoreError> {
+    let rows = columns.first().map_or(0, Values::len);
+    let mut made = Blocks::new(headings)?;
+    let blocks = (0..rows.div_ceil(ROWS))
+        .map(|k| made.next(columns.iter().map(|values| slice(values, k * ROWS, rows)).collect()));
+    folder.write(name, |out| join(out, headings, notes, blocks).map(|_| ()))
+}
+
+fn slice(values: &Values, from: usize, rows: usize) -> Values {
+    let range = from..(from + ROWS).min(rows);
+    match values {
+        Values::Double(values) => Values::Double(values[range].to_vec()),
+        Values::Single(values) => Values::Single(values[range].to_vec()),
+        Values::Long(values) => Values::Long(values[range].to_vec()),
+        Values::Whole(values) => Values::Whole(values[range].to_vec()),
+        Values::Word(values, words) => Values::Word(values[range].to_vec(), Arc::clone(words)),
+    }
+}
+
 /// A table that is read row group by row group.
 pub struct Table {
     reader: SerializedFileReader<std::fs::File>,

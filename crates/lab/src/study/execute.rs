@@ -9,6 +9,7 @@ use super::{report, tables, trial};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
 use crate::store::log::Log;
+use crate::store::texts::Texts;
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, HashMap};
 use std::io::Write;
@@ -104,47 +105,21 @@ pub struct Outcome {
     pub seconds: f64,
 }
 
+/// What the folder of a study holds, and what may be added to it.
+const WHAT: (&str, &str) = ("study", "cells and trials");
+
 /// The folder of a study: the one asked for, or one below `runs` that is free or holds the same study.
 fn place(plan: &Plan, selection: &Selection, out: Option<&Path>) -> Result<PathBuf, StoreError> {
-    if let Some(out) = out {
-        if let Some(manifest) = folder::manifest(out)? {
-            let lines = differences(plan, &manifest);
-            if !lines.is_empty() {
-                return Err(refused(out, lines));
-            }
-        }
-        return Ok(out.to_owned());
-    }
-    let name = plan.sources.name(0);
-    let stem = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("study");
+    let stem = plan.sources.stem(0).unwrap_or("study");
     let stem = match selection.shard {
         Some((i, n)) => format!("{stem}-shard-{i}-of-{n}"),
         None => stem.to_owned(),
     };
-    for number in 1.. {
-        let path = Path::new("runs").join(if number == 1 { stem.clone() } else { format!("{stem}-{number}") });
-        if !path.exists() {
-            return Ok(path);
-        }
-        // a damaged or foreign folder is somebody's: the next number is free
-        if let Ok(Some(manifest)) = folder::manifest(&path)
-            && differences(plan, &manifest).is_empty()
-        {
-            return Ok(path);
-        }
-    }
-    Err(StoreError::Refused("no folder is free below `runs`".into()))
+    folder::place(out, &stem, WHAT, &|manifest| differences(plan, manifest))
 }
 
-fn refused(path: &Path, mut lines: Vec<String>) -> StoreError {
-    let more = lines.len().saturating_sub(8);
-    lines.truncate(8);
-    if more > 0 {
-        lines.push(format!("and {more} more"));
-    }
-    let path = path.display();
-    let help = "cells and trials may be added, nothing else may change; choose another folder with --out";
-    StoreError::Refused(format!("`{path}` holds another study; {help}\n  {}", lines.join("\n  ")))
+fn refused(path: &Path, lines: Vec<String>) -> StoreError {
+    folder::other(path, WHAT, lines)
 }
 
 /// Where the study in a folder differs from this one, apart from cells and trials that were added.
@@ -175,16 +150,7 @@ fn differences(plan: &Plan, manifest: &Json) -> Vec<String> {
 
 /// The texts that make up a study, as a manifest keeps them.
 fn files(plan: &Plan) -> Json {
-    let all = (0..).map(|k| (plan.sources.name(k), plan.sources.text(k)));
-    let mut texts: Vec<(&str, &str)> = Vec::new();
-    for (name, text) in all.take_while(|(name, text)| !(name.is_empty() && text.is_empty())) {
-        // a file that several parts extend is kept once
-        if name != "--set" && texts.iter().all(|(other, _)| *other != name) {
-            texts.push((name, text));
-        }
-    }
-    let texts: Vec<Json> = texts.iter().map(|(name, text)| json!({ "name": name, "text": text })).collect();
-    json!({ "texts": texts, "set": plan.sets, "quick": plan.quick })
+    Texts::json(&plan.sources, &plan.sets, plan.quick)
 }
 
 /// The study that a manifest keeps.
@@ -192,23 +158,10 @@ fn files(plan: &Plan) -> Json {
 /// # Errors
 /// Why it cannot be read.
 pub fn read_back(manifest: &Json) -> Result<Plan, String> {
-    let damaged = || "the manifest lacks what it should hold".to_owned();
-    let files = manifest.get("files").ok_or_else(damaged)?;
-    let texts = files.get("texts").and_then(Json::as_array).ok_or_else(damaged)?;
-    let text = |entry: &Json| {
-        let word = |key: &str| entry.get(key).and_then(Json::as_str).map(str::to_owned);
-        Some((word("name")?, word("text")?))
-    };
-    let texts: Vec<(String, String)> = texts.iter().filter_map(text).collect();
-    let sets = files.get("set").and_then(Json::as_array).ok_or_else(damaged)?;
-    let sets: Vec<String> = sets.iter().filter_map(Json::as_str).map(str::to_owned).collect();
-    let quick = files.get("quick").and_then(Json::as_bool).unwrap_or(false);
-    let (name, first) = texts.first().ok_or_else(damaged)?;
-    let mut load = |path: &str| {
-        let found = texts.iter().find(|(name, _)| name == path);
-        found.map(|(_, text)| text.clone()).ok_or_else(|| format!("`{path}` is not in the manifest"))
-    };
-    plan::read(name, first, &sets, quick, &mut load).map_err(|problems| problems.to_string())
+    let texts = Texts::of(manifest).ok_or("the manifest lacks what it should hold")?;
+    let (name, first) = texts.file();
+    plan::read(name, first, &texts.sets, texts.quick, &mut |path| texts.text(path))
+        .map_err(|problems| problems.to_string())
 }
 
 /// The study in a folder.

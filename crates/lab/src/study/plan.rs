@@ -10,7 +10,7 @@ use super::form::{
     Test, Whose, Window,
 };
 use crate::file::tree::parse;
-use crate::file::{Desk, Form, Named, Node, Problems, Rule, Sources, Span, Tree};
+use crate::file::{Anything, Desk, Form, Named, Node, Problems, Rule, Sources, Span, Tree};
 use crate::scenario::build::{self, Schedule};
 use crate::scenario::{Record, Scenario};
 use core::ops::Range;
@@ -179,14 +179,15 @@ pub type Load<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
 /// # Errors
 /// Everything that is wrong with it, at its place.
 pub fn read(name: &str, text: &str, sets: &[String], quick: bool, load: Load<'_>) -> Result<Plan, Problems> {
-    let mut reader = Reader { sources: Sources::default(), desk: Desk::default(), load, quick };
+    let files = Files { sources: Sources::default(), desk: Desk::default(), load };
+    let mut reader = Reader { files, quick };
     let plan = reader.plan(name, text, sets);
     match plan {
-        Some(mut plan) if reader.desk.problems.is_empty() => {
-            plan.sources = reader.sources;
+        Some(mut plan) if reader.files.desk.problems.is_empty() => {
+            plan.sources = reader.files.sources;
             Ok(plan)
         }
-        _ => Err(Problems::new(reader.sources, reader.desk.problems)),
+        _ => Err(Problems::new(reader.files.sources, reader.files.desk.problems)),
     }
 }
 
@@ -195,10 +196,94 @@ const MOST_CELLS: usize = 100_000;
 /// Files that extend one another, at most.
 const CHAIN: usize = 10;
 
+/// The texts that a file is made of, what is wrong with them, and who loads those it names.
+pub(crate) struct Files<'a> {
+    pub(crate) sources: Sources,
+    pub(crate) desk: Desk,
+    pub(crate) load: Load<'a>,
+}
+
+impl Files<'_> {
+    /// Path and text of a file beside another.
+    fn loaded(&mut self, beside: &str, file: &str, place: &Span) -> Option<(String, String)> {
+        let path = std::path::Path::new(beside).parent().map_or_else(|| file.into(), |folder| folder.join(file));
+        let path = path.to_string_lossy().into_owned();
+        match (self.load)(&path) {
+            Ok(text) => Some((path, text)),
+            Err(what) => {
+                self.desk.problem(place, what, "the name of a file beside this one", "");
+                None
+            }
+        }
+    }
+    /// The scenario that a file is about: a table in it or the name of a file beside it, with values put over it.
+    /// `start` is where it would be missing, `what` what kind of file it is.
+    pub(crate) fn scenario(
+        &mut self,
+        given: Option<&Anything>,
+        title: &str,
+        set: &Node,
+        start: &Span,
+        what: &str,
+    ) -> Option<Node> {
+        let Some(given) = given else {
+            let help = "give the name of a file, scenario = \"tank.toml\", or a table [scenario]";
+            self.desk.problem(start, format!("the {what} has no scenario"), "`scenario` is missing", help);
+            return None;
+        };
+        let mut base = match &given.0.tree {
+            Tree::Table(_) => given.0.clone(),
+            Tree::Text(file) => {
+                // beside the file that names it
+                let beside = self.sources.name(given.0.span.source).to_owned();
+                let (path, text) = self.loaded(&beside, file, &given.0.span)?;
+                let source = self.sources.add(&path, &text);
+                let tree = parse(&self.sources, source, &mut self.desk.problems);
+                if !self.desk.problems.is_empty() {
+                    return None;
+                }
+                tree
+            }
+            other => {
+                let what = format!("`scenario` takes a file name or a table, found {}", other.describe());
+                self.desk.problem(&given.0.span, what, "expected a file name or a table", "");
+                return None;
+            }
+        };
+        for (key, value) in [("kind", "scenario"), ("title", title)] {
+            if base.get(key).is_none() {
+                let node = Node { tree: value.into(), span: base.span.clone() };
+                // a table takes any key
+                let _ = base.set(key, node);
+            }
+        }
+        self.put(&mut base, set)?;
+        Some(base)
+    }
+    /// Puts a table of values over a tree; a key with dots is a path, whose value is put as it is.
+    fn put(&mut self, tree: &mut Node, patch: &Node) -> Option<()> {
+        let Tree::Table(entries) = &patch.tree else {
+            let what = format!("a table of paths and values is needed here, found {}", patch.tree.describe());
+            self.desk.problem(&patch.span, what, "expected a table", "");
+            return None;
+        };
+        for entry in entries {
+            if entry.key.contains('.') {
+                if let Err(what) = tree.set(&entry.key, entry.node.clone()) {
+                    self.desk.problem(&entry.span, what, "names no place in the scenario", "");
+                    return None;
+                }
+            } else {
+                let one = Tree::Table(vec![entry.clone()]);
+                join(tree, &Node { tree: one, span: patch.span.clone() });
+            }
+        }
+        Some(())
+    }
+}
+
 struct Reader<'a> {
-    sources: Sources,
-    desk: Desk,
-    load: Load<'a>,
+    files: Files<'a>,
     quick: bool,
 }
 
@@ -215,10 +300,10 @@ impl Reader<'_> {
         let mut raws = Vec::new();
         for (k, file) in top.study.parts.iter().enumerate() {
             let place = top.tree.place(&format!("parts.{k}"));
-            let (path, text) = self.loaded(name, file, &place)?;
+            let (path, text) = self.files.loaded(name, file, &place)?;
             let raw = self.raw(&path, &text, &[])?;
             if !raw.study.parts.is_empty() {
-                self.desk.problem(&place, format!("`{file}` has parts itself"), "a part has no parts", "");
+                self.files.desk.problem(&place, format!("`{file}` has parts itself"), "a part has no parts", "");
                 return None;
             }
             raws.push(raw);
@@ -228,7 +313,7 @@ impl Reader<'_> {
         if !alone && (given("factor") || given("scenario")) {
             let place = top.tree.place(if given("factor") { "factor" } else { "scenario" });
             let what = "a study of parts has no factors and no scenario of its own";
-            self.desk.problem(&place, what, "leave it out", "make it a part");
+            self.files.desk.problem(&place, what, "leave it out", "make it a part");
             return None;
         }
         let mut plan = Plan {
@@ -263,57 +348,53 @@ impl Reader<'_> {
                     plan.seed = study.seed;
                 } else if study.seed != plan.seed {
                     let what = format!("this part has the seed {}, those before it {}", study.seed, plan.seed);
-                    self.desk.problem(&raw.tree.place("seed"), what, "one seed for all", "");
+                    self.files.desk.problem(&raw.tree.place("seed"), what, "one seed for all", "");
                 }
             }
             self.part(&mut plan, &raw, trials)?;
         }
         if let Some(tree) = whole {
             plan.claims = over.claim;
-            super::claims::check_claims(&plan, &plan.parts[0], &plan.claims, &tree, &self.sources, &mut self.desk);
+            super::claims::check_claims(
+                &plan,
+                &plan.parts[0],
+                &plan.claims,
+                &tree,
+                &self.files.sources,
+                &mut self.files.desk,
+            );
         }
-        (self.desk.problems.is_empty()).then_some(plan)
+        (self.files.desk.problems.is_empty()).then_some(plan)
     }
 
     /// A file as a study, with what it extends.
     fn raw(&mut self, name: &str, text: &str, sets: &[String]) -> Option<Raw> {
-        let source = self.sources.add(name, text);
-        let mut tree = parse(&self.sources, source, &mut self.desk.problems);
-        build::put(&mut tree, sets, &mut self.sources, &mut self.desk);
-        if !self.desk.problems.is_empty() {
+        let source = self.files.sources.add(name, text);
+        let mut tree = parse(&self.files.sources, source, &mut self.files.desk.problems);
+        build::put(&mut tree, sets, &mut self.files.sources, &mut self.files.desk);
+        if !self.files.desk.problems.is_empty() {
             return None;
         }
         let tree = self.extended(name, tree, 0)?;
-        let before = self.desk.problems.len();
-        let study = Study::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut self.desk)?;
-        if self.desk.problems.len() > before {
+        let before = self.files.desk.problems.len();
+        let study = Study::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut self.files.desk)?;
+        if self.files.desk.problems.len() > before {
             return None;
         }
         let stem = std::path::Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("study");
         Some(Raw { name: stem.to_owned(), study, tree })
     }
-    fn loaded(&mut self, beside: &str, file: &str, place: &Span) -> Option<(String, String)> {
-        let path = std::path::Path::new(beside).parent().map_or_else(|| file.into(), |folder| folder.join(file));
-        let path = path.to_string_lossy().into_owned();
-        match (self.load)(&path) {
-            Ok(text) => Some((path, text)),
-            Err(what) => {
-                self.desk.problem(place, what, "the name of a file beside this one", "");
-                None
-            }
-        }
-    }
     fn extended(&mut self, name: &str, mut tree: Node, depth: usize) -> Option<Node> {
         let Some(node) = tree.get("extends").cloned() else { return Some(tree) };
         let Tree::Text(file) = &node.tree else { return Some(tree) };
         if depth == CHAIN {
-            self.desk.problem(&node.span, "too many files extend one another", "a circle?", "");
+            self.files.desk.problem(&node.span, "too many files extend one another", "a circle?", "");
             return None;
         }
-        let (path, text) = self.loaded(name, file, &node.span)?;
-        let source = self.sources.add(&path, &text);
-        let under = parse(&self.sources, source, &mut self.desk.problems);
-        if !self.desk.problems.is_empty() {
+        let (path, text) = self.files.loaded(name, file, &node.span)?;
+        let source = self.files.sources.add(&path, &text);
+        let under = parse(&self.files.sources, source, &mut self.files.desk.problems);
+        if !self.files.desk.problems.is_empty() {
             return None;
         }
         let under = self.extended(&path, under, depth + 1)?;
@@ -326,67 +407,10 @@ impl Reader<'_> {
         Some(joined)
     }
 
-    /// The scenario from which the cells of a part are made.
-    fn base(&mut self, raw: &Raw) -> Option<Node> {
-        let Some(given) = &raw.study.scenario else {
-            let start = Span { source: raw.tree.span.source, bytes: 0..0 };
-            let help = "give the name of a file, scenario = \"tank.toml\", or a table [scenario]";
-            self.desk.problem(&start, "the study has no scenario", "`scenario` is missing", help);
-            return None;
-        };
-        let mut base = match &given.0.tree {
-            Tree::Table(_) => given.0.clone(),
-            Tree::Text(file) => {
-                // beside the file that names it
-                let beside = self.sources.name(given.0.span.source).to_owned();
-                let (path, text) = self.loaded(&beside, file, &given.0.span)?;
-                let source = self.sources.add(&path, &text);
-                let tree = parse(&self.sources, source, &mut self.desk.problems);
-                if !self.desk.problems.is_empty() {
-                    return None;
-                }
-                tree
-            }
-            other => {
-                let what = format!("`scenario` takes a file name or a table, found {}", other.describe());
-                self.desk.problem(&given.0.span, what, "expected a file name or a table", "");
-                return None;
-            }
-        };
-        for (key, value) in [("kind", "scenario"), ("title", raw.study.title.as_str())] {
-            if base.get(key).is_none() {
-                let node = Node { tree: value.into(), span: base.span.clone() };
-                // a table takes any key
-                let _ = base.set(key, node);
-            }
-        }
-        self.put(&mut base, &raw.study.set.0)?;
-        Some(base)
-    }
-    /// Puts a table of values over a tree; a key with dots is a path, whose value is put as it is.
-    fn put(&mut self, tree: &mut Node, patch: &Node) -> Option<()> {
-        let Tree::Table(entries) = &patch.tree else {
-            let what = format!("a table of paths and values is needed here, found {}", patch.tree.describe());
-            self.desk.problem(&patch.span, what, "expected a table", "");
-            return None;
-        };
-        for entry in entries {
-            if entry.key.contains('.') {
-                if let Err(what) = tree.set(&entry.key, entry.node.clone()) {
-                    self.desk.problem(&entry.span, what, "names no place in the scenario", "");
-                    return None;
-                }
-            } else {
-                let one = Tree::Table(vec![entry.clone()]);
-                join(tree, &Node { tree: one, span: patch.span.clone() });
-            }
-        }
-        Some(())
-    }
-
     fn part(&mut self, plan: &mut Plan, raw: &Raw, trials: usize) -> Option<()> {
         let study = &raw.study;
-        let base = self.base(raw)?;
+        let start = Span { source: raw.tree.span.source, bytes: 0..0 };
+        let base = self.files.scenario(study.scenario.as_ref(), &study.title, &study.set.0, &start, "study")?;
         let defines = self.expressions("define", &study.define, raw)?;
         let derives = self.expressions("derive", &study.derive, raw)?;
         let rows = self.rows(study, raw, plan.seed)?;
@@ -421,7 +445,7 @@ impl Reader<'_> {
                 let value = self.evaluated(expression, &names, place)?;
                 let node = Node { tree: tree_of(&value), span: place.clone() };
                 if let Err(what) = tree.set(path, node) {
-                    self.desk.problem(place, what, "names no place in the scenario", "");
+                    self.files.desk.problem(place, what, "names no place in the scenario", "");
                     return None;
                 }
             }
@@ -441,17 +465,17 @@ impl Reader<'_> {
         };
         if plan.parts.iter().any(|other| other.name == part.name) {
             let what = format!("two parts are called `{}`", part.name);
-            self.desk.problem(&raw.tree.span, what, "files of different names", "");
+            self.files.desk.problem(&raw.tree.span, what, "files of different names", "");
         }
         plan.parts.push(part);
-        super::claims::check(plan, plan.parts.len() - 1, &raw.tree, &self.sources, &mut self.desk);
-        self.desk.problems.is_empty().then_some(())
+        super::claims::check(plan, plan.parts.len() - 1, &raw.tree, &self.files.sources, &mut self.files.desk);
+        self.files.desk.problems.is_empty().then_some(())
     }
 
     /// The condition of a cell, which may be there already.
     fn condition(&mut self, plan: &mut Plan, raw: &Raw, tree: &Node, trials: usize, row: &[Put]) -> Option<usize> {
-        let before = self.desk.problems.len();
-        let read = build::read_tree(tree, &mut self.desk);
+        let before = self.files.desk.problems.len();
+        let read = build::read_tree(tree, &mut self.files.desk);
         let found = read.and_then(|scenario| {
             if plan.cells.is_empty() {
                 self.readings(plan, raw, &scenario)?;
@@ -472,20 +496,20 @@ impl Reader<'_> {
                 condition.trials = condition.trials.max(trials);
                 return Some(at);
             }
-            if !build::possible(&scenario, tree, &mut self.desk) {
+            if !build::possible(&scenario, tree, &mut self.files.desk) {
                 return None;
             }
             let schedule = build::schedule(&scenario, false).ok()?;
             let agents = scenario.group.0.iter().map(|(_, group)| group.count as u64).sum();
             let condition = Condition { scenario, tree: tree.clone(), identity, key, schedule, agents, trials };
-            super::trial::check(&condition, plan, &raw.tree, &mut self.desk);
+            super::trial::check(&condition, plan, &raw.tree, &mut self.files.desk);
             plan.conditions.push(condition);
-            (self.desk.problems.len() == before).then(|| plan.conditions.len() - 1)
+            (self.files.desk.problems.len() == before).then(|| plan.conditions.len() - 1)
         });
         if found.is_none() && !row.is_empty() {
             // where the same text stands in many cells, which one is it?
             let cell: Vec<String> = row.iter().map(|put| format!("{} = {}", put.factor, put.level.text)).collect();
-            for problem in self.desk.problems[before..].iter_mut().filter(|problem| problem.help.is_empty()) {
+            for problem in self.files.desk.problems[before..].iter_mut().filter(|problem| problem.help.is_empty()) {
                 problem.help = format!("in the cell {}", cell.join(", "));
             }
         }
@@ -497,7 +521,7 @@ impl Reader<'_> {
         let schedule = match build::schedule(scenario, false) {
             Ok(schedule) => schedule,
             Err(wrong) => {
-                self.desk.problem(&raw.tree.span, wrong.what, wrong.expected, wrong.help);
+                self.files.desk.problem(&raw.tree.span, wrong.what, wrong.expected, wrong.help);
                 return None;
             }
         };
@@ -516,7 +540,7 @@ impl Reader<'_> {
         if !same {
             let place = raw.tree.place("reading");
             let what = format!("`{}` reads other numbers than the parts before it", raw.name);
-            self.desk.problem(&place, what, "the same readings", "put them into a file that all parts extend");
+            self.files.desk.problem(&place, what, "the same readings", "put them into a file that all parts extend");
         }
         same.then_some(())
     }
@@ -535,7 +559,7 @@ impl Reader<'_> {
     fn evaluated(&mut self, expression: &Expression, names: &Surroundings<'_>, place: &Span) -> Option<Value> {
         match expression.value(names) {
             Ok(Value::Number(number)) if !number.is_finite() => {
-                self.desk.problem(place, format!("the expression gives {number}"), "a finite number", "");
+                self.files.desk.problem(place, format!("the expression gives {number}"), "a finite number", "");
                 None
             }
             Ok(value) => Some(value),
@@ -546,18 +570,18 @@ impl Reader<'_> {
         }
     }
     fn mistaken(&mut self, mistake: &Mistake, place: &Span) {
-        let span = within(&self.sources, place, &mistake.bytes);
-        self.desk.problem(&span, mistake.what.clone(), "", mistake.help.clone());
+        let span = within(&self.files.sources, place, &mistake.bytes);
+        self.files.desk.problem(&span, mistake.what.clone(), "", mistake.help.clone());
     }
 
     /// Puts a level into the scenario of a cell.
     fn put_level(&mut self, tree: &mut Node, put: &Put, factor: &Factor) -> Option<()> {
         if let Some((_, patch)) = factor.level.0.iter().find(|(name, _)| *name == put.level.text) {
-            return self.put(tree, &patch.0);
+            return self.files.put(tree, &patch.0);
         }
         let Some(path) = &factor.path else { return Some(()) };
         if let Err(what) = tree.set(path, put.node.clone()) {
-            self.desk.problem(&put.node.span, format!("`{path}`: {what}"), "names no place in the scenario", "");
+            self.files.desk.problem(&put.node.span, format!("`{path}`: {what}"), "names no place in the scenario", "");
             return None;
         }
         Some(())
@@ -575,19 +599,22 @@ impl Reader<'_> {
                 for (name, _) in factors {
                     match row.0.iter().find(|(key, _)| key == name) {
                         Some((_, value)) => puts.push(Put::of(name, &value.0)),
-                        None => {
-                            self.desk.problem(&at, format!("the row has no `{name}`"), "a value for every factor", "")
-                        }
+                        None => self.files.desk.problem(
+                            &at,
+                            format!("the row has no `{name}`"),
+                            "a value for every factor",
+                            "",
+                        ),
                     }
                 }
                 if let Some((other, _)) = row.0.iter().find(|(key, _)| factors.iter().all(|(name, _)| name != key)) {
                     let near = nearest(other, factors.iter().map(|(name, _)| name.as_str()));
                     let help = near.map_or_else(String::new, |near| format!("did you mean `{near}`?"));
-                    self.desk.problem(&at, format!("no factor is called `{other}`"), "not a factor", help);
+                    self.files.desk.problem(&at, format!("no factor is called `{other}`"), "not a factor", help);
                 }
                 rows.push(puts);
             }
-            return self.desk.problems.is_empty().then_some(rows);
+            return self.files.desk.problems.is_empty().then_some(rows);
         }
         let drawn = match &study.design {
             Design::LatinHypercube(samples) | Design::Random(samples) => Some(samples.samples),
@@ -611,7 +638,7 @@ impl Reader<'_> {
                         .collect()
                 }
                 (_, Some(range)) if range.len() != 2 || range[0] > range[1] => {
-                    self.desk.problem(&place(name), "range takes [least, greatest]", "two numbers in order", "");
+                    self.files.desk.problem(&place(name), "range takes [least, greatest]", "two numbers in order", "");
                     continue;
                 }
                 _ => {
@@ -631,7 +658,7 @@ impl Reader<'_> {
             };
             levels.push(own);
         }
-        if !self.desk.problems.is_empty() {
+        if !self.files.desk.problems.is_empty() {
             return None;
         }
         let number: usize = match &study.design {
@@ -640,14 +667,14 @@ impl Reader<'_> {
         };
         if number > MOST_CELLS {
             let what = format!("that would be {number} cells");
-            self.desk.problem(&raw.tree.place("factor"), what, format!("at most {MOST_CELLS}"), "");
+            self.files.desk.problem(&raw.tree.place("factor"), what, format!("at most {MOST_CELLS}"), "");
             return None;
         }
         if let Some(at) =
             (0..levels.len()).find(|&k| !matches!(study.design, Design::Full(_)) && levels[k].len() != number)
         {
             let what = format!("`{}` has {} levels and `{}` {number}", factors[at].0, levels[at].len(), factors[0].0);
-            self.desk.problem(&place(&factors[at].0), what, "as many levels each", "");
+            self.files.desk.problem(&place(&factors[at].0), what, "as many levels each", "");
             return None;
         }
         let full = matches!(study.design, Design::Full(_));
@@ -672,7 +699,12 @@ impl Reader<'_> {
             (None, Some(steps)) => {
                 let count = ((steps.to - steps.from) / steps.by + 1e-9).floor();
                 if !(0.0..1e6).contains(&count) {
-                    self.desk.problem(place, "the steps lead nowhere", "`to` not below `from`, and not too far", "");
+                    self.files.desk.problem(
+                        place,
+                        "the steps lead nowhere",
+                        "`to` not below `from`, and not too far",
+                        "",
+                    );
                     return None;
                 }
                 let value = |k: usize| {
@@ -694,13 +726,13 @@ impl Reader<'_> {
                 levels.extend(factor.level.0.iter().map(level));
             }
             (Some(_), Some(_)) => {
-                self.desk.problem(place, format!("`{name}` has values and steps"), "one of the two", "");
+                self.files.desk.problem(place, format!("`{name}` has values and steps"), "one of the two", "");
                 return None;
             }
         }
         if levels.is_empty() {
             let what = format!("the factor `{name}` has no levels");
-            self.desk.problem(place, what, "needs `values`, `steps` or [factor.NAME.level.LEVEL] tables", "");
+            self.files.desk.problem(place, what, "needs `values`, `steps` or [factor.NAME.level.LEVEL] tables", "");
             return None;
         }
         Some(levels)
@@ -788,7 +820,7 @@ fn value_of(tree: &Tree) -> Option<Value> {
     })
 }
 
-fn tree_of(value: &Value) -> Tree {
+pub(crate) fn tree_of(value: &Value) -> Tree {
     match value {
         Value::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => Tree::Whole(*number as i64),
         Value::Number(number) => Tree::Number(*number),
@@ -843,7 +875,7 @@ pub(crate) fn within(sources: &Sources, place: &Span, bytes: &Range<usize>) -> S
 }
 
 /// What is read where a study does not say: what the scenario measures, states, and contacts.
-fn usual_readings(scenario: &Scenario) -> Vec<(String, Reading)> {
+pub(crate) fn usual_readings(scenario: &Scenario) -> Vec<(String, Reading)> {
     let mut readings: Vec<(String, Reading)> = Vec::new();
     let mut add = |name: String, about: &str, unit: String, of: Quantity| {
         // groups of one model share its columns

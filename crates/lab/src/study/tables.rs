@@ -8,9 +8,6 @@ use crate::store::table::{self, Heading, Kind, Values};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Rows of a block.
-const ROWS: usize = 65_536;
-
 /// Names that columns have already.
 pub const RESERVED: [&str; 6] = ["part", "cell", "condition", "trial", "seed", "trials"];
 
@@ -54,26 +51,10 @@ pub fn of_cell<'a>(plan: &Plan, results: &'a Results, cell: usize) -> impl Itera
 /// Where the system refuses.
 pub fn write(folder: &Folder, plan: &Plan, results: &Results) -> Result<(), StoreError> {
     for (name, (headings, columns)) in [(TRIALS, trials(plan, results)), (CELLS, cells(plan, results))] {
-        let rows = columns.first().map_or(0, Values::len);
-        let blocks = (0..rows.div_ceil(ROWS)).map(|k| {
-            let part: Vec<Values> = columns.iter().map(|values| slice(values, k * ROWS, rows)).collect();
-            table::block(&headings, &part)
-        });
         let notes = [("flockworks.title".to_owned(), plan.title.clone())];
-        folder.write(name, |out| table::join(out, &headings, &notes, blocks).map(|_| ()))?;
+        table::write_table(folder, name, &headings, &columns, &notes)?;
     }
     Ok(())
-}
-
-fn slice(values: &Values, from: usize, rows: usize) -> Values {
-    let range = from..(from + ROWS).min(rows);
-    match values {
-        Values::Double(values) => Values::Double(values[range].to_vec()),
-        Values::Single(values) => Values::Single(values[range].to_vec()),
-        Values::Long(values) => Values::Long(values[range].to_vec()),
-        Values::Whole(values) => Values::Whole(values[range].to_vec()),
-        Values::Word(values, words) => Values::Word(values[range].to_vec(), Arc::clone(words)),
-    }
 }
 
 type Filled = (Vec<Heading>, Vec<Values>);

@@ -70,7 +70,7 @@ fn looks(condition: &Condition, plan: &Plan) -> Result<Looks, (String, String)> 
 }
 
 /// Whether everything that is to be read can be read in a condition; what cannot goes to the desk.
-pub(super) fn check(condition: &Condition, plan: &Plan, tree: &Node, desk: &mut Desk) {
+pub(crate) fn check(condition: &Condition, plan: &Plan, tree: &Node, desk: &mut Desk) {
     if let Err((key, what)) = looks(condition, plan) {
         desk.problem(&tree.place(&key), what, "", "");
         return;

@@ -7,7 +7,7 @@ use crate::file::Form;
 use crate::report::of_tracks;
 use crate::run::{EVENTS, METRICS, REPORT, TRAJECTORY};
 use crate::store::folder::{self, Folder};
-use crate::store::table::{Heading, Values, block, join};
+use crate::store::table::{Blocks, Heading, Values, join};
 use crate::store::{StoreError, folder::MANIFEST};
 use crate::with_tracks;
 use serde_json::{Value as Json, json};
@@ -104,20 +104,21 @@ pub fn write(out: &Path, request: &Request<'_>, all: &[Analysed]) -> Result<(), 
     let notes = notes(request, all);
     let headings = tables::trajectory(all);
     folder.write(TRAJECTORY, |file| {
-        join(file, &headings, &notes, tables::trajectory_blocks(all, &headings)).map(|_| ())
+        join(file, &headings, &notes, tables::trajectory_blocks(all, &headings)?).map(|_| ())
     })?;
-    let each = |columns: &dyn Fn(usize) -> Vec<Values>, headings: &[Heading]| -> Vec<Result<Vec<u8>, StoreError>> {
+    let each = |columns: &dyn Fn(usize) -> Vec<Values>, headings: &[Heading]| {
+        let mut made = Blocks::new(headings)?;
         let blocks = (0..all.len()).map(columns).filter(|columns| !columns[0].is_empty());
-        blocks.map(|columns| block(headings, &columns)).collect()
+        Ok::<_, StoreError>(blocks.map(|columns| made.next(columns)).collect::<Vec<_>>())
     };
     let headings = tables::metrics(all);
-    let blocks = each(&|run| tables::metric_columns(all, run), &headings);
+    let blocks = each(&|run| tables::metric_columns(all, run), &headings)?;
     folder.write(METRICS, |file| join(file, &headings, &notes, blocks.into_iter()).map(|_| ()))?;
     let headings = tables::events(all);
-    let blocks = each(&|run| tables::event_columns(&all[run], run), &headings);
+    let blocks = each(&|run| tables::event_columns(&all[run], run), &headings)?;
     folder.write(EVENTS, |file| join(file, &headings, &notes, blocks.into_iter()).map(|_| ()))?;
     let headings = tables::over_time();
-    let blocks = each(&|run| tables::over_time_columns(&all[run], run), &headings);
+    let blocks = each(&|run| tables::over_time_columns(&all[run], run), &headings)?;
     folder.write(tables::OVER_TIME, |file| join(file, &headings, &notes, blocks.into_iter()).map(|_| ()))?;
     let html = crate::report::html(&of_tracks::page(request, all));
     folder.write(REPORT, |file| {

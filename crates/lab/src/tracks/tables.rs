@@ -5,8 +5,9 @@ use super::clean::Flag;
 use crate::run::tables::AXES;
 use crate::store::StoreError;
 use crate::store::export::{csv_names, csv_rows};
-use crate::store::table::{Heading, Kind, Values, block};
+use crate::store::table::{Blocks, Heading, Kind, Values};
 use crate::with_tracks;
+use bytes::Bytes;
 use measure::{Field, Ground, Kind as Of, MetricCard, Tracks};
 use std::collections::HashMap;
 use std::io::Write;
@@ -47,21 +48,25 @@ pub fn trajectory(all: &[Analysed]) -> Vec<Heading> {
 }
 
 /// The blocks of the tracks.
+///
+/// # Errors
+/// Where there can be no such table.
 pub fn trajectory_blocks<'a>(
     all: &'a [Analysed],
     headings: &'a [Heading],
-) -> impl Iterator<Item = Result<Vec<u8>, StoreError>> + 'a {
+) -> Result<impl Iterator<Item = Result<Bytes, StoreError>> + 'a, StoreError> {
+    let mut blocks = Blocks::new(headings)?;
     let groups = Arc::new(all.iter().map(|one| one.recording.name.clone()).collect::<Vec<_>>());
     let parts = all.iter().enumerate().flat_map(|(run, one)| {
         let parts = with_tracks!(&one.recording.table, tracks => parts(tracks));
         parts.into_iter().map(move |part| (run, one, part))
     });
-    parts.map(move |(run, one, part)| {
+    Ok(parts.map(move |(run, one, part)| {
         let columns = with_tracks!(&one.recording.table, tracks => {
             columns(tracks, headings, run, part, &groups)
         });
-        block(headings, &columns)
-    })
+        blocks.next(columns)
+    }))
 }
 
 /// Ranges of frames whose rows make up a block.
@@ -215,7 +220,8 @@ pub fn events(all: &[Analysed]) -> Vec<Heading> {
 
 /// The events of a recording in the order of time: what was flagged, and what groups did.
 pub fn event_columns(one: &Analysed, run: usize) -> Vec<Values> {
-    let mut words: Vec<String> = [Flag::ImpossibleSpeed, Flag::IdentitySwap].map(|flag| flag.word().to_owned()).to_vec();
+    let mut words: Vec<String> =
+        [Flag::ImpossibleSpeed, Flag::IdentitySwap].map(|flag| flag.word().to_owned()).to_vec();
     let mut rows: Vec<(i64, f64, u16, i64)> = with_tracks!(&one.recording.table, tracks => {
         let row = |&(row, frame, flag): &(usize, usize, Flag)| {
             let word = u16::from(flag == Flag::IdentitySwap);
@@ -228,7 +234,10 @@ pub fn event_columns(one: &Analysed, run: usize) -> Vec<Values> {
         let (Some(frame), Some(time)) = (at("frame"), at("t")) else { continue };
         let event = at("event");
         for row in 0..listing.len() {
-            let label = event.map_or_else(|| card.id.to_owned(), |event| label(one, &card.fields[event], listing.columns[event][row]));
+            let label = event.map_or_else(
+                || card.id.to_owned(),
+                |event| label(one, &card.fields[event], listing.columns[event][row]),
+            );
             let word = words.iter().position(|word| *word == label).unwrap_or_else(|| {
                 words.push(label);
                 words.len() - 1

@@ -1,0 +1,167 @@
+//! `kind = "evolution"`: a search over values of a scenario.
+
+use super::{Input, Kind, shown};
+use crate::fault::{Fault, wrong};
+use crate::run::{self, INTERRUPTED, PROGRAM, QUIET, RunOptions, rate, text_of};
+use crate::view::ViewOptions;
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use lab::evolution::execute::{self, CHAMPION, REPORT};
+use lab::evolution::form::Evolution as Form;
+use lab::evolution::tables::{CANDIDATES, CHAMPIONS, GENERATIONS};
+use lab::evolution::{self, Plan};
+use lab::file::write::toml;
+use serde_json::Value as Json;
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// A search over values of a scenario.
+pub(super) struct Evolution;
+
+impl Kind for Evolution {
+    fn id(&self) -> &'static str {
+        "evolution"
+    }
+    fn template(&self) -> &'static str {
+        evolution::TEMPLATE
+    }
+    fn schema(&self) -> Json {
+        lab::file::schema::schema::<Form>("flockworks evolution")
+    }
+    fn reference(&self) -> String {
+        let list = |list: &[(&str, &str)]| {
+            list.iter().map(|(id, about)| format!("- `{id}`: {about}")).collect::<Vec<_>>().join("\n")
+        };
+        let lead = format!(
+            "Every key of an evolution file, TOML. [How to write one](../how-to/evolution.md). Expressions are those of \
+             [study files](study.md).\n\n\
+             Selection:\n\n{}\n\nCrossover:\n\n{}\n\nMutation:\n\n{}",
+            list(search::selection::LIST),
+            list(search::crossover::LIST),
+            list(search::mutation::LIST)
+        );
+        lab::file::reference::reference::<Form>("Evolution files", &lead)
+    }
+    fn check(&self, input: &Input) -> Result<String, Fault> {
+        let plan = read(input, false)?;
+        let (runs, genes) = (plan.form.runs, plan.axes.len());
+        Ok(format!(
+            "{genes} genes, {} generations, {runs} {}",
+            plan.generations,
+            if runs == 1 { "run" } else { "runs" }
+        ))
+    }
+    fn run(&self, mut input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
+        if let Some(option) = options.study.given() {
+            return wrong(format!("`{}` is an evolution, and {option} is for studies", input.name));
+        }
+        if let Some(seed) = options.seed {
+            input.sets.push(format!("seed={seed}"));
+        }
+        let plan = read(&input, options.quick)?;
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = options.threads.unwrap_or(cores);
+        run::listen()?;
+        let mut progress = Progress::new();
+        let outcome = execute::run(&plan, threads, options.out.as_deref(), PROGRAM, &mut progress);
+        progress.bar.finish_and_clear();
+        let outcome = outcome?;
+        if outcome.left > 0 {
+            writeln!(out, "stopped, {} generations are left; the same command continues it", outcome.left)?;
+            return Ok(INTERRUPTED);
+        }
+        writeln!(out, "{}", plan.form.title)?;
+        for (k, score) in outcome.champions.iter().enumerate() {
+            match score {
+                Some(score) => writeln!(out, "  run {}: champion with a fitness of {score:.6}", k + 1)?,
+                None => writeln!(out, "  run {}: no candidate had a fitness", k + 1)?,
+            }
+        }
+        if outcome.generations > 0 {
+            let speed = rate(outcome.updates as f64 / outcome.seconds.max(1e-9));
+            writeln!(out, "{} generations in {:.1} s, {speed}", outcome.generations, outcome.seconds)?;
+        } else {
+            writeln!(out, "all generations were there already")?;
+        }
+        told(&outcome.folder, out)?;
+        Ok(0)
+    }
+    fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
+        // the world as it is with the references: a champion's is a scenario file of its own
+        let plan = read(input, false)?;
+        Ok((input.name.clone(), toml(&plan.tree)))
+    }
+    fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
+        execute::of_folder(folder)?;
+        Ok(vec![GENERATIONS, CANDIDATES, CHAMPIONS])
+    }
+    fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
+        execute::report_again(folder, PROGRAM)?;
+        told(folder, out)
+    }
+}
+
+fn told(folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
+    writeln!(out, "tables    {}", folder.display())?;
+    if folder.join(CHAMPION).exists() {
+        writeln!(out, "champion  {}", folder.join(CHAMPION).display())?;
+    }
+    writeln!(out, "page      {}", folder.join(REPORT).display())?;
+    Ok(())
+}
+
+fn read(input: &Input, quick: bool) -> Result<Plan, Fault> {
+    let mut load = |path: &str| text_of(path).map_err(|fault| fault.to_string());
+    evolution::read(&input.name, &input.text, &input.sets, quick, &mut load).map_err(|problems| shown(&problems))
+}
+
+/// A bar on a terminal, quiet lines elsewhere.
+struct Progress {
+    bar: ProgressBar,
+    quiet: bool,
+    began: Instant,
+    told: Instant,
+    generations: (usize, usize),
+    best: f64,
+}
+
+impl Progress {
+    fn new() -> Self {
+        let now = Instant::now();
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        let quiet = !std::io::stderr().is_terminal();
+        Self { bar, quiet, began: now, told: now, generations: (0, 0), best: f64::NEG_INFINITY }
+    }
+}
+
+#[allow(clippy::print_stderr, reason = "progress is told on standard error")]
+impl execute::Watch for Progress {
+    fn begin(&mut self, folder: &Path, generations: usize, there: usize, threads: usize) {
+        (self.generations, self.began) = ((0, generations), Instant::now());
+        let kept = if there > 0 { format!(", {there} are there already") } else { String::new() };
+        eprintln!("{}: {generations} generations on {threads} threads{kept}", folder.display());
+        if !self.quiet && generations > 0 {
+            self.bar = ProgressBar::with_draw_target(Some(generations as u64), ProgressDrawTarget::stderr());
+            let template = "{bar:30} {percent:>3} %  {msg}  {eta} left";
+            self.bar.set_style(ProgressStyle::with_template(template).unwrap_or(ProgressStyle::default_bar()));
+            self.bar.enable_steady_tick(Duration::from_millis(500));
+        }
+    }
+    fn done(&mut self, _: u64, best: f64) {
+        self.generations.0 += 1;
+        self.best = self.best.max(best);
+        let (done, all) = self.generations;
+        if !self.quiet {
+            self.bar.set_position(done as u64);
+            self.bar.set_message(format!("{done}/{all} generations  best {:.4}", self.best));
+        } else if self.told.elapsed() > QUIET {
+            self.told = Instant::now();
+            let left = self.began.elapsed().as_secs_f64() * (all as f64 / done as f64 - 1.0);
+            let left = HumanDuration(Duration::from_secs_f64(left));
+            eprintln!("generation {done} of {all}, best so far {:.4}, about {left} left", self.best);
+        }
+    }
+    fn stopper(&self) -> fn() -> bool {
+        run::stopped
+    }
+}
