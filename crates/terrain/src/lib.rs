@@ -31,6 +31,8 @@ pub mod filters;
 pub mod geometry;
 pub mod grammar;
 pub mod grammars;
+pub mod schema;
+pub mod schemas;
 mod workspace;
 pub mod workspaces;
 
@@ -42,4 +44,5 @@ pub use error::TerrainError;
 pub use expression::Expression;
 pub use geometry::{Geometry, Point, Pose, Units};
 pub use grammar::{Derivation, Grammar};
+pub use schema::Schema;
 pub use workspace::{Workspace, within};
