@@ -3,7 +3,8 @@
 //! A metric reads a [`space::Frame`], one moment of a simulated or a tracked group, and knows nothing of the engine
 //! that made it. What every metric shares is settled once, in [`Sample`]: members stand in the order of their ids,
 //! sums are taken in that order and in f64, and offsets go by minimum image on periodic axes. Each metric is one
-//! file in [`metrics`] and one line in its list; its [`MetricCard`] says what it is and where it is undefined.
+//! file in [`metrics`] and one line in its list; its [`MetricCard`] says what it is and where it is undefined. Whether a
+//! group did what was wanted of it, over a whole course, is for [`behaviours`] to say.
 //!
 //! ```
 //! use measure::{Metric, Sample, metrics};
@@ -27,6 +28,7 @@
 //! }
 //! ```
 
+pub mod behaviours;
 mod metric;
 pub mod metrics;
 pub mod near;

@@ -66,21 +66,27 @@ pub fn linked<const D: usize>(space: &Space<f64, D>, places: &[Vector<f64, D>], 
     by_grid.unwrap_or_else(|| linked_by_all_pairs(space, places, distance))
 }
 
-/// [`linked`] over all pairs: each group is flooded from its first place.
+/// [`linked`] over all pairs.
 pub fn linked_by_all_pairs<const D: usize>(
     space: &Space<f64, D>,
     places: &[Vector<f64, D>],
     distance: f64,
 ) -> Vec<usize> {
-    let mut group = vec![0; places.len()];
+    components(places.len(), |i, j| are_linked(space, places[i], places[j], distance))
+}
+
+/// The connected component of each of so many things, whichever two are linked; numbered from 0 in the order of their
+/// first. Each component is flooded from there.
+pub fn components(count: usize, linked: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    let mut group = vec![0; count];
     let mut groups = 0;
-    let mut alone: Vec<usize> = (0..places.len()).rev().collect();
+    let mut alone: Vec<usize> = (0..count).rev().collect();
     while let Some(first) = alone.pop() {
         let mut reached = vec![first];
         while let Some(i) = reached.pop() {
             group[i] = groups;
             alone.retain(|&j| {
-                let near = are_linked(space, places[i], places[j], distance);
+                let near = linked(i, j);
                 if near {
                     reached.push(j);
                 }

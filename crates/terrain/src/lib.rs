@@ -31,6 +31,7 @@ pub mod filters;
 pub mod geometry;
 pub mod grammar;
 pub mod grammars;
+pub mod posts;
 pub mod schema;
 pub mod schemas;
 mod workspace;

@@ -2,8 +2,8 @@
 //! from 0.30 on.
 
 use super::group_count::LINKING_DISTANCE;
+use crate::behaviours::blocks::entropy_ratio;
 use crate::{Counted, EdgeCases, Metric, MetricCard, Sample};
-use space::Real;
 
 /// `balance`.
 #[derive(Clone, Copy, Debug)]
@@ -38,9 +38,7 @@ impl Metric for Balance {
         if sizes.len() < 2 {
             return None;
         }
-        let share = |size: &usize| *size as f64 / sample.len() as f64;
-        let entropy: f64 = sizes.iter().map(share).map(|p| -p * Real::ln(p)).sum();
-        Some(entropy / Real::ln(sizes.len() as f64))
+        Some(entropy_ratio(&sizes))
     }
     fn parameter(&mut self, name: &str) -> Option<&mut f64> {
         (name == LINKING_DISTANCE.name).then_some(&mut self.linking_distance)
