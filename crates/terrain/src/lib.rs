@@ -28,12 +28,17 @@ mod draws;
 mod error;
 pub mod expression;
 pub mod filters;
+pub mod generate;
 pub mod geometry;
 pub mod grammar;
 pub mod grammars;
+pub mod hierarchy;
 pub mod posts;
+pub mod primitives;
+pub mod reduction;
 pub mod schema;
 pub mod schemas;
+pub mod text;
 mod workspace;
 pub mod workspaces;
 

@@ -48,7 +48,7 @@ impl Domain {
         }
         Ok((0..count.max(1.0) as usize).map(|k| (least + k as f64 * resolution).min(most)).collect())
     }
-    fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         let (least, most) = self.bounds();
         match self {
             Self::Whole(..) => format!("a whole number from {least} to {most}"),
