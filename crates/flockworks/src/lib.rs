@@ -4,6 +4,7 @@ pub mod bench;
 pub mod case;
 pub mod command;
 pub mod conformance;
+pub mod eval;
 pub mod fault;
 pub mod files;
 pub mod json;
