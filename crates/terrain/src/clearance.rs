@@ -26,7 +26,7 @@ pub fn escapes_with_clearance(walls: &[Segment], point: Point, radius: f64) -> R
     let margin = 2.0 * radius + 4.0 * cell;
     let extent = [0, 1].map(|a| ((high[a] - low[a] + 2.0 * margin) / cell).ceil() + 1.0);
     let count = extent[0] * extent[1];
-    if !(count <= MOST) {
+    if count.is_nan() || count > MOST {
         return Err(TerrainError::TooMany { count, limit: MOST });
     }
     let [width, height] = extent.map(|n| n as usize);

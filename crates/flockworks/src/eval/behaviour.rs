@@ -3,16 +3,13 @@
 use super::{mismatch, not_negative, points, positive, segment, sizes};
 use crate::fault::Fault;
 use crate::json::At;
-use measure::behaviours::blocks;
-use measure::near::linked;
+use measure::behaviours::{Membership, blocks};
 use serde_json::{Value as Json, json};
-use space::{Space, Vector};
+use space::Vector;
 
 /// Sizes of the groups, the largest first.
 fn groups(places: &[Vector<f64, 2>], threshold: f64) -> Vec<usize> {
-    let group = linked(&Space::open(), places, threshold);
-    let mut sizes = vec![0; group.iter().max().map_or(0, |&last| last + 1)];
-    group.into_iter().for_each(|group| sizes[group] += 1);
+    let mut sizes = Membership::within(threshold).sizes(places);
     sizes.sort_unstable_by(|a, b| b.cmp(a));
     sizes
 }

@@ -71,8 +71,8 @@ impl Membership {
     pub fn within(distance: f64) -> Self {
         Self { distance, walls: Vec::new() }
     }
-    /// Sizes of the groups.
-    fn sizes(&self, places: &[Point]) -> Vec<usize> {
+    /// Sizes of the groups, in the order of their first members.
+    pub fn sizes(&self, places: &[Point]) -> Vec<usize> {
         let group = if self.walls.is_empty() {
             linked(&Space::open(), places, self.distance)
         } else {

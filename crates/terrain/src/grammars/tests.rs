@@ -70,7 +70,7 @@ fn the_splitting_filter_passes_what_its_formula_says() {
 /// G-7.1b.
 #[test]
 fn about_half_of_the_corrals_pass() {
-    let share = share(&corralling::grammar(), &Corralling::default(), 2000);
+    let share = share(&corralling::grammar(), &Corralling, 2000);
     assert!((0.46..=0.55).contains(&share), "{share}");
 }
 

@@ -1,5 +1,6 @@
 //! `funnel`: two walls that converge along x, and a chute behind their neck.
 
+use super::length;
 use crate::construct::{Marker, Piece};
 use crate::geometry::{Geometry, Pose, sin_cos};
 use crate::schema::{Domain, Parameter, Schema, SchemaCard, known};
@@ -29,8 +30,6 @@ pub(super) fn converging(mouth: f64, neck: f64, half_angle: f64, chute: f64) -> 
 
 impl Schema for Funnel {
     fn card(&self) -> SchemaCard {
-        let length =
-            |name, least, default, about| Parameter::new(name, "length", Domain::Range(least, 1e3), default, about);
         SchemaCard {
             id: "funnel",
             about: "Two walls that converge along x, and a chute behind their neck, which is at the origin.",

@@ -2,6 +2,7 @@
 //! the last; there is one bin more than rows. Walkers come down, along -y.
 
 use super::funnel::converging;
+use super::length;
 use crate::construct::{Marker, Piece};
 use crate::geometry::{Geometry, Point, Pose};
 use crate::schema::{Domain, Parameter, Schema, SchemaCard, known};
@@ -27,8 +28,6 @@ pub fn bin(x: f64, rows: usize, pitch: f64) -> usize {
 
 impl Schema for Galton {
     fn card(&self) -> SchemaCard {
-        let length =
-            |name, least, default, about| Parameter::new(name, "length", Domain::Range(least, 1e3), default, about);
         SchemaCard {
             id: "galton",
             about: "A funnel, a triangle of pegs below it, and bins below that.",

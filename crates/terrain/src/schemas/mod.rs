@@ -55,6 +55,11 @@ fn angle(name: &'static str, default: f64) -> Parameter {
     Parameter::new(name, "deg", Domain::Periodic(0.0, 360.0), default, "Direction of the wall from its anchor.")
 }
 
+/// A length of at least so much.
+fn length(name: &'static str, least: f64, default: f64, about: &'static str) -> Parameter {
+    Parameter::new(name, "length", Domain::Range(least, 1e3), default, about)
+}
+
 /// The anchor by number: the anchor of the workspace whose name is that number.
 fn anchor_parameter(default: f64) -> Parameter {
     Parameter::new("anchor", "1", Domain::Whole(1.0, 1e6), default, "The anchor of this number.")

@@ -1,8 +1,8 @@
 //! `pen`: cattle handling along x: a converging alley, a curved single-file chute that turns left by a quarter, and a
 //! straight with sorting gates in its outer wall.
 
-use super::arc;
 use super::funnel::converging;
+use super::{arc, length};
 use crate::construct::{Marker, Piece};
 use crate::geometry::{Geometry, Pose, along};
 use crate::schema::{Domain, Parameter, Schema, SchemaCard, known};
@@ -15,8 +15,6 @@ pub struct Pen;
 
 impl Schema for Pen {
     fn card(&self) -> SchemaCard {
-        let length =
-            |name, least, default, about| Parameter::new(name, "length", Domain::Range(least, 1e3), default, about);
         SchemaCard {
             id: "pen",
             about: "A converging alley, a curved chute, and a straight with sorting gates.",

@@ -1,6 +1,6 @@
 //! `sieve`: a row of posts through which only bodies narrower than the gap pass; wider ones slide along it.
 
-use super::towards;
+use super::{length, towards};
 use crate::construct::Piece;
 use crate::geometry::Geometry;
 use crate::schema::{Domain, Parameter, Schema, SchemaCard, known};
@@ -13,8 +13,6 @@ pub struct Sieve;
 
 impl Schema for Sieve {
     fn card(&self) -> SchemaCard {
-        let length =
-            |name, least, default, about| Parameter::new(name, "length", Domain::Range(least, 1e3), default, about);
         SchemaCard {
             id: "sieve",
             about: "A row of posts about the origin, with equal gaps.",

@@ -1,10 +1,10 @@
 //! `weir`: the classical fish trap along x: a straight leader, a round chamber that turns back whoever follows the leader,
 //! and a pot behind it with a throat that points inwards.
 
-use super::arc;
+use super::{arc, length};
 use crate::construct::{Marker, Piece};
 use crate::geometry::{Geometry, Pose, along, sin_cos};
-use crate::schema::{Domain, Parameter, Schema, SchemaCard, known};
+use crate::schema::{Schema, SchemaCard, known};
 use crate::{Construct, Draws, TerrainError, Workspace};
 use space::Vector;
 
@@ -19,8 +19,6 @@ fn half_opening(width: f64, radius: f64) -> f64 {
 
 impl Schema for Weir {
     fn card(&self) -> SchemaCard {
-        let length =
-            |name, least, default, about| Parameter::new(name, "length", Domain::Range(least, 1e3), default, about);
         SchemaCard {
             id: "weir",
             about: "A straight leader, a turn-back chamber with two doors beside the leader, and a pot with a throat.",
