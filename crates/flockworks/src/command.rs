@@ -3,6 +3,7 @@
 use crate::analyze::{AnalyzeOptions, analyze};
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
+use crate::eval::{EvalOptions, eval};
 use crate::fault::Fault;
 use crate::files::{self, CompletionsOptions, ExplainOptions, ExportOptions, KindOptions, ManOptions, SchemaOptions};
 use crate::kinds::study::{MergeOptions, merge};
@@ -64,6 +65,8 @@ pub enum Command {
     /// The exit code is 1 if a case fails or its model is unknown.
     #[command(verbatim_doc_comment)]
     Conformance(ConformanceOptions),
+    /// Answer small exact questions about environments and behaviours, as JSON: one value for each case of a file.
+    Eval(EvalOptions),
     /// List the models, or show one: equations, parameters, stages, state, random quantities, classification.
     Models(ModelsOptions),
     /// Measure the speed of the workloads, or of every model.
@@ -105,6 +108,7 @@ pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
         Command::Man(options) => files::man(options, out).map(|()| 0),
         Command::Step(options) => step(options, out).map(|()| 0),
         Command::Conformance(options) => conformance(options, out).map(|good| u8::from(!good)),
+        Command::Eval(options) => eval(options, out).map(|()| 0),
         Command::Models(options) => models(options, out).map(|()| 0),
         Command::Bench(options) => bench(options, out).map(|()| 0),
     }

@@ -6,6 +6,7 @@ pub mod case;
 pub mod command;
 pub mod conformance;
 pub mod emit;
+pub mod eval;
 pub mod fault;
 pub mod files;
 pub mod json;

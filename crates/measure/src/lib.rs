@@ -3,7 +3,8 @@
 //! A metric reads a [`space::Frame`], one moment of a simulated or a tracked group, and knows nothing of the engine
 //! that made it. What every metric shares is settled once, in [`Sample`]: members stand in the order of their ids,
 //! sums are taken in that order and in f64, and offsets go by minimum image on periodic axes. Each metric is one
-//! file in [`metrics`] and one line in its list; its [`MetricCard`] says what it is and where it is undefined.
+//! file in [`metrics`] and one line in its list; its [`MetricCard`] says what it is and where it is undefined. Whether a
+//! group did what was wanted of it, over a whole course, is for [`behaviours`] to say.
 //!
 //! [`Tracks`] are the frames of animals (or of a recorded run) in one table. [`per_frame`] measures every frame of them;
 //! what needs more than one moment is a [`TrackMetric`], listed in [`over_time`].
@@ -30,6 +31,7 @@
 //! }
 //! ```
 
+pub mod behaviours;
 pub mod domains;
 pub mod ground;
 pub mod hull;

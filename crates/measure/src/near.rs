@@ -72,14 +72,15 @@ pub fn linked_by_all_pairs<const D: usize>(
     places: &[Vector<f64, D>],
     distance: f64,
 ) -> Vec<usize> {
-    flooded(places.len(), |i, j| are_linked(space, places[i], places[j], distance))
+    components(places.len(), |i, j| are_linked(space, places[i], places[j], distance))
 }
 
-/// The groups of [`linked`] by any rule of who is linked with whom: each group is flooded from its first member.
-pub fn flooded(members: usize, linked: impl Fn(usize, usize) -> bool) -> Vec<usize> {
-    let mut group = vec![0; members];
+/// The connected component of each of so many things, whichever two are linked; numbered from 0 in the order of their
+/// first. Each component is flooded from there.
+pub fn components(count: usize, linked: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    let mut group = vec![0; count];
     let mut groups = 0;
-    let mut alone: Vec<usize> = (0..members).rev().collect();
+    let mut alone: Vec<usize> = (0..count).rev().collect();
     while let Some(first) = alone.pop() {
         let mut reached = vec![first];
         while let Some(i) = reached.pop() {

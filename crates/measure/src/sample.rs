@@ -4,7 +4,7 @@ use crate::domains;
 use crate::ground::{departure, geodesic, middle, polygon};
 use crate::hull::{Hull, flat_hull, solid_hull};
 use crate::near::{
-    dense_clusters, flooded, linked, nearest_distances, nearest_others, nearest_others_by, pairs_within,
+    components, dense_clusters, linked, nearest_distances, nearest_others, nearest_others_by, pairs_within,
 };
 use crate::{Counted, Ground};
 use space::{Edge, Frame, GroupRange, Real, Space, Vector};
@@ -408,9 +408,9 @@ impl<const D: usize> Sample<D> {
     pub fn groups(&self, linking_distance: f64) -> Cow<'_, [usize]> {
         let n = self.len();
         let compute = || match self.pairs() {
-            Some(pairs) => flooded(n, |i, j| pairs[i * n + j] <= linking_distance),
+            Some(pairs) => components(n, |i, j| pairs[i * n + j] <= linking_distance),
             None if self.places.is_empty() => linked(&self.space, &self.positions, linking_distance),
-            None => flooded(n, |i, j| self.distance(i, j) <= linking_distance),
+            None => components(n, |i, j| self.distance(i, j) <= linking_distance),
         };
         // the metrics of a list nearly always share one distance
         let (distance, groups) = self.kept.groups.get_or_init(|| (linking_distance, compute()));

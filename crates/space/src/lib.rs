@@ -5,6 +5,7 @@
 //! recorders and pages read. It knows no model, no file and no clock.
 
 pub mod boundary;
+pub mod exact;
 mod frame;
 pub mod grid;
 pub mod lanes;
@@ -12,6 +13,7 @@ pub mod obstacles;
 pub mod parallel;
 pub mod random;
 mod real;
+pub mod segment;
 pub mod shape;
 pub mod spelling;
 mod vector;
@@ -21,4 +23,5 @@ pub use boundary::{Edge, Space};
 pub use frame::{Column, ColumnKind, Columns, Frame, GroupRange, PADDING};
 pub use grid::{Grid, LiveGrid};
 pub use real::Real;
+pub use segment::Segment;
 pub use vector::Vector;

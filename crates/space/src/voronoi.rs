@@ -17,6 +17,7 @@
 //! **Ties.** Where four or more members lie on one circle, cells may touch in a point. An edge of length zero is no
 //! edge here: the diagonals of a square lattice are not neighbours.
 
+use crate::exact::{Expansion, FARTHEST, order, product, significant, sum};
 use crate::{Real, Vector};
 use core::cmp::Ordering;
 use core::fmt;
@@ -25,10 +26,6 @@ use core::fmt;
 const TINY: f64 = 1e-12;
 /// Its square, for comparison with squared distances.
 const TINY_SQUARED: f64 = TINY * TINY;
-/// Components smaller than this count as 0, so that no product of four of them loses bits to underflow.
-const NEGLIGIBLE: f64 = 1e-60;
-/// Offsets with a component beyond this are left out as if not finite: products of four would approach overflow.
-const FARTHEST: f64 = 1e70;
 /// How many of the nearest members the search starts from.
 const FIRST: usize = 16;
 /// Relative rounding error of the forms of [`Edge`] and of [`turn`]: counting operations gives at most 10 units of
@@ -164,11 +161,7 @@ struct Site {
 impl Site {
     #[inline(always)]
     fn new<R: Real, const D: usize>(offset: &Vector<R, D>, index: u32) -> Option<Self> {
-        let significant = |c: R| {
-            let c = c.to_f64();
-            if c.abs() < NEGLIGIBLE { 0.0 } else { c }
-        };
-        let (x, y) = (significant(offset[0]), significant(offset[1]));
+        let (x, y) = (significant(offset[0].to_f64()), significant(offset[1].to_f64()));
         (x.abs() <= FARTHEST && y.abs() <= FARTHEST).then_some(Self { x, y, squared: x * x + y * y, index })
     }
     /// In the same place as another.
@@ -196,7 +189,7 @@ impl Site {
         if difference.abs() > ROUNDING * (self.squared + other.squared) {
             return order(difference, 0.0);
         }
-        let mut total = Expansion::default();
+        let mut total = Expansion::<8>::default();
         for (factor, site) in [(1.0, self), (-1.0, other)] {
             total.add_product(factor * site.x, site.x);
             total.add_product(factor * site.y, site.y);
@@ -421,12 +414,6 @@ fn along_line(sites: &[Site], star: &mut Vec<Site>) {
     star.extend(behind.min_by(|a, b| a.squared.total_cmp(&b.squared)));
 }
 
-/// The order of two numbers (finite ones: no product here can overflow), where 0 and -0 are equal.
-#[inline(always)]
-fn order(a: f64, b: f64) -> Ordering {
-    a.partial_cmp(&b).unwrap_or(Ordering::Equal)
-}
-
 /// On which side of the direction `a` the direction `b` is: the exact sign of `a x b`, `Greater` to the left.
 #[inline(always)]
 fn side(a: &Site, b: &Site) -> Ordering {
@@ -481,7 +468,8 @@ fn turn_doubled(a: &Site, b: &Site, c: &Site) -> f64 {
 /// [`turn`] without rounding.
 #[cold]
 fn turn_exact(a: &Site, b: &Site, c: &Site) -> Ordering {
-    let mut total = Expansion::default();
+    // three times four by four products of two terms
+    let mut total = Expansion::<96>::default();
     for (p, q, r) in [(a, b, c), (b, c, a), (c, a, b)] {
         let (xx, yy) = (product(p.x, p.x), product(p.y, p.y));
         let (left, right) = (product(q.x, r.y), product(-q.y, r.x));
@@ -492,69 +480,6 @@ fn turn_exact(a: &Site, b: &Site, c: &Site) -> Ordering {
         }
     }
     total.sign()
-}
-
-/// A product as its rounded value and its rounding error, both exact. (The fused operation recovers the error here
-/// instead of saving a rounding; IEEE 754 fixes its result, so the bits are the same on every machine.)
-#[inline(always)]
-fn product(a: f64, b: f64) -> [f64; 2] {
-    let rounded = a * b;
-    [rounded, a.mul_add(b, -rounded)]
-}
-
-/// A sum as its rounded value and its rounding error, both exact.
-#[inline(always)]
-fn sum(a: f64, b: f64) -> [f64; 2] {
-    let rounded = a + b;
-    let from_b = rounded - a;
-    [rounded, (a - (rounded - from_b)) + (b - from_b)]
-}
-
-/// An exact sum of floating-point numbers: terms that do not overlap, the smallest first, none of them 0.
-struct Expansion {
-    terms: [f64; Self::CAPACITY],
-    count: usize,
-}
-
-impl Default for Expansion {
-    fn default() -> Self {
-        Self { terms: [0.0; Self::CAPACITY], count: 0 }
-    }
-}
-
-impl Expansion {
-    /// Terms of [`turn_exact`]: three times four by four products of two terms.
-    const CAPACITY: usize = 96;
-
-    /// Shewchuk's GROW-EXPANSION with zero elimination.
-    fn add(&mut self, value: f64) {
-        let mut carried = value;
-        let mut kept = 0;
-        for i in 0..self.count {
-            let [rounded, error] = sum(carried, self.terms[i]);
-            carried = rounded;
-            if error != 0.0 {
-                self.terms[kept] = error;
-                kept += 1;
-            }
-        }
-        if carried != 0.0 {
-            self.terms[kept] = carried;
-            kept += 1;
-        }
-        self.count = kept;
-    }
-    fn add_product(&mut self, a: f64, b: f64) {
-        for term in product(a, b) {
-            if term != 0.0 {
-                self.add(term);
-            }
-        }
-    }
-    /// The last term exceeds the sum of all others.
-    fn sign(&self) -> Ordering {
-        self.terms[..self.count].last().map_or(Ordering::Equal, |&last| order(last, 0.0))
-    }
 }
 
 #[cfg(test)]
@@ -964,18 +889,5 @@ mod tests {
             zeros += usize::from(expected == Ordering::Equal);
         }
         assert!(zeros > 10, "{zeros}");
-    }
-
-    #[test]
-    fn expansions_keep_every_bit() {
-        let sign = |terms: &[f64]| {
-            let mut total = Expansion::default();
-            terms.iter().for_each(|&term| total.add(term));
-            total.sign()
-        };
-        assert_eq!(sign(&[1e70, 1.0, -1e70, 1e-70, -1.0]), Ordering::Greater);
-        assert_eq!(sign(&[1e70, -1e-200, -1e70]), Ordering::Less);
-        assert_eq!(sign(&[0.1, 0.2, -0.1, -0.2]), Ordering::Equal);
-        assert_eq!(sign(&[0.1, 0.2, -(0.1 + 0.2)]), Ordering::Less, "0.1 + 0.2 rounds up");
     }
 }

@@ -2,9 +2,9 @@
 //! from 0.30 on.
 
 use super::group_count::LINKING_DISTANCE;
+use crate::behaviours::blocks::entropy_ratio;
 use crate::metric::takes;
 use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
-use space::Real;
 
 takes! {
     /// `balance`.
@@ -32,18 +32,11 @@ impl Metric for Balance {
         if sizes.len() < 2 {
             return None;
         }
-        Some(entropy(&sizes)? / Real::ln(sizes.len() as f64))
+        Some(entropy_ratio(&sizes))
     }
     fn parameter(&mut self, name: &str) -> Option<&mut f64> {
         self.place(name)
     }
-}
-
-/// `-sum p ln p` of the shares of groups by their sizes. `None` without members.
-pub(super) fn entropy(sizes: &[usize]) -> Option<f64> {
-    let members: usize = sizes.iter().sum();
-    let shares = sizes.iter().map(|&size| size as f64 / members as f64);
-    (members > 0).then(|| shares.map(|p| -p * Real::ln(p)).sum::<f64>().max(0.0))
 }
 
 #[cfg(test)]

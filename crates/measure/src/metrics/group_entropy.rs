@@ -1,7 +1,7 @@
 //! How uncertain it is to which group a member belongs.
 
-use super::balance::entropy;
 use super::group_count::LINKING_DISTANCE;
+use crate::behaviours::blocks::entropy;
 use crate::metric::takes;
 use crate::{Counted, EdgeCases, Metric, MetricCard, Sample, Takes};
 
