@@ -1,7 +1,7 @@
 //! `flockworks new`, `schema`, `export`, `completions`, `man`: what helps with files.
 
 use crate::command::Line;
-use crate::fault::{Fault, hint, wrong};
+use crate::fault::Fault;
 use crate::kinds;
 use crate::run::read_back;
 use clap::{Args, CommandFactory, ValueEnum};

@@ -59,7 +59,10 @@ fn the_shipped_tracks_run_and_play() {
     let told = well(&["run", &shipped("sticklebacks.toml"), "--out", out.to_str().unwrap()]);
     assert!(told.contains("individuals  5") && told.contains("times are in frames"), "{told}");
     // as trajectorytools and numpy have it, over frames 1 to 300
-    assert!((means(&out, "nearest_neighbour_distance") * 301.0 - 40.404_472_36 - 68.968_235_653_862_44 * 300.0).abs() < 1e-5);
+    assert!(
+        (means(&out, "nearest_neighbour_distance") * 301.0 - 40.404_472_36 - 68.968_235_653_862_44 * 300.0).abs()
+            < 1e-5
+    );
     for file in ["manifest.json", "trajectory.parquet", "events.parquet", "over_time.parquet", "report.html"] {
         assert!(out.join(file).exists(), "{file}");
     }
@@ -127,9 +130,25 @@ fn cleaning_is_counted_and_both_averages_are_told() {
     let out = fresh("dirty");
     let (table, folder) = (table.to_str().unwrap(), out.to_str().unwrap());
     let told = well(&[
-        "analyze", table, "--fps", "1", "--interpolate", "3", "--greatest-speed", "5", "--smooth", "5,2", "--out", folder,
+        "analyze",
+        table,
+        "--fps",
+        "1",
+        "--interpolate",
+        "3",
+        "--greatest-speed",
+        "5",
+        "--smooth",
+        "5,2",
+        "--out",
+        folder,
     ]);
-    for what in ["1 gaps filled, 1 positions", "1 positions flagged: impossible speed", "80 positions smoothed", "without flagged"] {
+    for what in [
+        "1 gaps filled, 1 positions",
+        "1 positions flagged: impossible speed",
+        "80 positions smoothed",
+        "without flagged",
+    ] {
         assert!(told.contains(what), "{what}: {told}");
     }
     let events = Table::open(&out.join("events.parquet")).unwrap();
@@ -152,9 +171,15 @@ fn what_is_wrong_is_said_in_a_sentence_and_nothing_is_left() {
         (vec!["analyze", table, "--fps", "fast", "--out", out], "a number above 0 or `unknown`"),
         (vec!["analyze", table, "--fps", "1", "--columns", "id", "--out", out], "ROLE=NAME"),
         (vec!["analyze", table, "--fps", "1", "--columns", "idd=id", "--out", out], "no column can be `idd`"),
-        (vec!["analyze", table, "--fps", "1", "--metrics", "polarization", "--out", out], "did you mean `polarisation`"),
+        (
+            vec!["analyze", table, "--fps", "1", "--metrics", "polarization", "--out", out],
+            "did you mean `polarisation`",
+        ),
         (vec!["analyze", table, "--fps", "1", "--smooth", "4", "--out", out], "odd number"),
-        (vec!["analyze", table, "--fps", "1", "--set", "measure.parameters.eps=-1", "--metrics", "dbscan_clusters"], "eps"),
+        (
+            vec!["analyze", table, "--fps", "1", "--set", "measure.parameters.eps=-1", "--metrics", "dbscan_clusters"],
+            "eps",
+        ),
         (vec!["analyze", "nowhere.csv", "--out", out], "cannot read"),
         (vec!["analyze", table, table, "--fps", "1", "--out", out], "two recordings are called `fish`"),
     ] {

@@ -41,7 +41,10 @@ impl Kind for Tracks {
             let path = read.folder.join(&written.file);
             let recording = tracks::read(&path, written.name.as_deref(), &written.ask())?;
             let understood = &recording.understood;
-            parts.push(format!("{}: {} individuals, {} frames", recording.name, understood.individuals, understood.frames));
+            parts.push(format!(
+                "{}: {} individuals, {} frames",
+                recording.name, understood.individuals, understood.frames
+            ));
         }
         Ok(parts.join("; "))
     }

@@ -160,10 +160,8 @@ fn places(
 
 /// The metrics of a recording that are defined somewhere, as the scene lists them, and the message `metrics_all`.
 fn metrics_of(table: &Table, recording: usize) -> Result<(Json, Json), StoreError> {
-    let cards: Vec<(usize, &measure::MetricCard)> = measure::metrics::LIST
-        .iter()
-        .filter_map(|card| Some((table.column(card.id)?, *card)))
-        .collect();
+    let cards: Vec<(usize, &measure::MetricCard)> =
+        measure::metrics::LIST.iter().filter_map(|card| Some((table.column(card.id)?, *card))).collect();
     let mut wanted = vec![column(table, "run")?, column(table, "t")?, column(table, "group")?];
     wanted.extend(cards.iter().map(|&(at, _)| at));
     let every = (table.rows() as usize / MEASURED).max(1);

@@ -354,7 +354,8 @@ fn over_time_tables(all: &[Analysed]) -> Vec<Download> {
 
 /// The averages as CSV.
 fn summary_csv(all: &[Analysed]) -> String {
-    let mut text = "recording,metric,unit,mean,sd,least,greatest,frames,mean_without_flagged,frames_without_flagged\n".to_owned();
+    let mut text =
+        "recording,metric,unit,mean,sd,least,greatest,frames,mean_without_flagged,frames_without_flagged\n".to_owned();
     let cell = |value: f64| if value.is_finite() { value.to_string() } else { String::new() };
     for one in all {
         for (k, card) in one.cards.iter().enumerate() {
@@ -363,7 +364,12 @@ fn summary_csv(all: &[Analysed]) -> String {
             let (rest, frames) = rest.map_or_else(Default::default, |rest| (cell(rest.mean), rest.frames.to_string()));
             let name = format!("\"{}\"", one.recording.name.replace('"', "\"\""));
             let numbers = [a.mean, a.sd, a.least, a.greatest].map(cell).join(",");
-            text += &format!("{name},{},{},{numbers},{},{rest},{frames}\n", card.id, tables::unit_of(one, card.unit), a.frames);
+            text += &format!(
+                "{name},{},{},{numbers},{},{rest},{frames}\n",
+                card.id,
+                tables::unit_of(one, card.unit),
+                a.frames
+            );
         }
     }
     text
@@ -495,12 +501,7 @@ impl<'a, const D: usize> Seen3<'a, D> {
                 let (_, row) = last?;
                 Some(Seen { group: 0, position: self.place(row), heading: self.heading(row), trail })
             });
-            Moment {
-                time: self.tracks.times()[to],
-                agents: agents.collect(),
-                items: Vec::new(),
-                obstacles: Vec::new(),
-            }
+            Moment { time: self.tracks.times()[to], agents: agents.collect(), items: Vec::new(), obstacles: Vec::new() }
         });
         let moments: Vec<Moment> = moments.collect();
         Some(Figure::Scenes(Scenes {

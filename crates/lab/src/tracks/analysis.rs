@@ -115,10 +115,7 @@ fn open(parameters: &'static [Parameter], file: &TracksFile) -> Vec<&'static str
 }
 
 /// The metrics of frames that are measured, and those left out for want of a parameter.
-fn chosen<const D: usize>(
-    _: &Tracks<D>,
-    file: &TracksFile,
-) -> Result<(Vec<Box<dyn Measure<D>>>, LeftOut), StoreError> {
+fn chosen<const D: usize>(_: &Tracks<D>, file: &TracksFile) -> Result<(Vec<Box<dyn Measure<D>>>, LeftOut), StoreError> {
     let (mut metrics, mut left_out) = (Vec::new(), Vec::new());
     for mut metric in measure::metrics::all::<D>() {
         let card = metric.card();
@@ -181,7 +178,8 @@ fn measured_over_time<const D: usize>(
     let (mut listings, mut undefined) = (Vec::new(), Vec::new());
     let asked = file.measure.metrics.is_some();
     if !asked && tracks.len() > OVER_TIME {
-        undefined.push(format!("metrics over time are measured on request where there are more than {OVER_TIME} positions"));
+        undefined
+            .push(format!("metrics over time are measured on request where there are more than {OVER_TIME} positions"));
         return Ok((listings, undefined));
     }
     let quarter = tracks.interval().map(|interval| (tracks.frames().len() as f64 / 4.0).floor().max(1.0) * interval);

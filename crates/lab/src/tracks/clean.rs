@@ -353,12 +353,17 @@ mod tests {
     #[test]
     fn a_parabola_stays_itself_when_smoothed() {
         let fixes: Vec<_> = (0..9).map(|k| (k, 0, (k * k) as f64, 3.0 - k as f64)).collect();
-        let (smoothed, done) = clean(tracks(&fixes, 1), &Cleaning { smooth: Some((5, 2)), ..Cleaning::default() }).unwrap();
+        let (smoothed, done) =
+            clean(tracks(&fixes, 1), &Cleaning { smooth: Some((5, 2)), ..Cleaning::default() }).unwrap();
         assert_eq!(done.smoothed, (9, 0));
         for (row, fix) in fixes.iter().enumerate() {
-            assert!((smoothed.positions(0)[row] - fix.2).abs() < 1e-12 && (smoothed.positions(1)[row] - fix.3).abs() < 1e-12);
+            assert!(
+                (smoothed.positions(0)[row] - fix.2).abs() < 1e-12
+                    && (smoothed.positions(1)[row] - fix.3).abs() < 1e-12
+            );
         }
-        let (_, done) = clean(tracks(&fixes[..4], 1), &Cleaning { smooth: Some((5, 2)), ..Cleaning::default() }).unwrap();
+        let (_, done) =
+            clean(tracks(&fixes[..4], 1), &Cleaning { smooth: Some((5, 2)), ..Cleaning::default() }).unwrap();
         assert_eq!(done.smoothed, (0, 4));
     }
 

@@ -166,7 +166,9 @@ fn numbers<T: DataType>(
     let mut read = read.iter().map(number);
     let values: Vec<f64> = match levels.as_slice() {
         [] => read.collect(),
-        levels => levels.iter().map(|&level| if level == 1 { read.next().unwrap_or(f64::NAN) } else { f64::NAN }).collect(),
+        levels => {
+            levels.iter().map(|&level| if level == 1 { read.next().unwrap_or(f64::NAN) } else { f64::NAN }).collect()
+        }
     };
     if !as_words {
         return Ok(Cells::Numbers(values));
@@ -211,16 +213,12 @@ fn read(reader: ColumnReader, about: &ColumnDescriptor, rows: usize, as_words: b
         _ => 1.0,
     };
     match reader {
-        ColumnReader::BoolColumnReader(reader) => {
-            numbers(reader, about, rows, as_words, |&v| f64::from(u8::from(v)))
-        }
+        ColumnReader::BoolColumnReader(reader) => numbers(reader, about, rows, as_words, |&v| f64::from(u8::from(v))),
         ColumnReader::Int32ColumnReader(reader) => numbers(reader, about, rows, as_words, |&v| f64::from(v)),
         ColumnReader::Int64ColumnReader(reader) => {
             // whole seconds first: nanoseconds since 1970 have more digits than a number of 64 bits holds
             let per = (1.0 / seconds).round() as i64;
-            numbers(reader, about, rows, as_words, |&v| {
-                v.div_euclid(per) as f64 + v.rem_euclid(per) as f64 * seconds
-            })
+            numbers(reader, about, rows, as_words, |&v| v.div_euclid(per) as f64 + v.rem_euclid(per) as f64 * seconds)
         }
         ColumnReader::FloatColumnReader(reader) => numbers(reader, about, rows, as_words, |&v| f64::from(v)),
         ColumnReader::DoubleColumnReader(reader) => numbers(reader, about, rows, as_words, |&v| v),

@@ -70,7 +70,9 @@ impl Gathered {
                     let word: String = word.chars().take(40).collect();
                     format!("{}, column `{name}`: expected a number, found `{word}`", row.place())
                 }
-                Bad::Short(found) => format!("{} has {found} cells; column `{name}` is number {}", row.place(), column + 1),
+                Bad::Short(found) => {
+                    format!("{} has {found} cells; column `{name}` is number {}", row.place(), column + 1)
+                }
             };
             wrong(path, &what)
         };

@@ -9,8 +9,8 @@
 pub mod analysis;
 pub mod clean;
 pub mod file;
-pub mod folder;
 mod flat;
+pub mod folder;
 mod gather;
 pub mod layouts;
 pub mod names;

@@ -11,13 +11,43 @@ pub const ROLES: &[(&str, &[&str])] = &[
     (
         "id",
         &[
-            "id", "individual", "individual_id", "individual_local_identifier", "identity", "animal", "animal_id",
-            "track", "track_id", "trackid", "tracked_id", "fish", "fish_id", "agent", "agent_id", "person", "persid",
-            "pers_id", "person_id", "ped", "ped_id", "pedestrian", "pedestrian_id", "particle", "target", "name", "ind",
+            "id",
+            "individual",
+            "individual_id",
+            "individual_local_identifier",
+            "identity",
+            "animal",
+            "animal_id",
+            "track",
+            "track_id",
+            "trackid",
+            "tracked_id",
+            "fish",
+            "fish_id",
+            "agent",
+            "agent_id",
+            "person",
+            "persid",
+            "pers_id",
+            "person_id",
+            "ped",
+            "ped_id",
+            "pedestrian",
+            "pedestrian_id",
+            "particle",
+            "target",
+            "name",
+            "ind",
         ],
     ),
-    ("x", &["x", "pos_x", "posx", "x_pos", "xpos", "x_position", "position_x", "centroid_x", "x_centroid", "xbody", "cx"]),
-    ("y", &["y", "pos_y", "posy", "y_pos", "ypos", "y_position", "position_y", "centroid_y", "y_centroid", "ybody", "cy"]),
+    (
+        "x",
+        &["x", "pos_x", "posx", "x_pos", "xpos", "x_position", "position_x", "centroid_x", "x_centroid", "xbody", "cx"],
+    ),
+    (
+        "y",
+        &["y", "pos_y", "posy", "y_pos", "ypos", "y_position", "position_y", "centroid_y", "y_centroid", "ybody", "cy"],
+    ),
     ("z", &["z", "pos_z", "posz", "z_pos", "zpos", "z_position", "position_z", "centroid_z", "z_centroid", "cz"]),
     ("longitude", &["longitude", "lon", "long", "lng", "location_long", "location_lon"]),
     ("latitude", &["latitude", "lat", "location_lat"]),
@@ -115,7 +145,8 @@ pub fn comments(head: &Head) -> (Option<f64>, Option<&'static str>) {
     let (mut fps, mut unit) = (None, None);
     for comment in &head.comments {
         let lower = comment.to_lowercase();
-        let rate = ["framerate", "frame rate", "fps"].iter().find_map(|word| lower.split_once(word).map(|(_, rest)| rest));
+        let rate =
+            ["framerate", "frame rate", "fps"].iter().find_map(|word| lower.split_once(word).map(|(_, rest)| rest));
         if let (Some(rest), None) = (rate, fps) {
             let digits = rest.trim_start_matches([' ', ':', '=', '\t']);
             let end = digits.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(digits.len());
@@ -157,7 +188,8 @@ pub fn column(head: &Head, names: &[String], ask: &Ask, role: &str) -> Result<Op
 /// The column of a name, or of a number counted from 1.
 fn named(head: &Head, names: &[String], role: &str, name: &str) -> Result<usize, StoreError> {
     let number = name.parse::<usize>().ok().filter(|&number| number >= 1 && number <= names.len());
-    let found = names.iter().position(|other| other == name).or_else(|| names.iter().position(|n| plain(n) == plain(name)));
+    let found =
+        names.iter().position(|other| other == name).or_else(|| names.iter().position(|n| plain(n) == plain(name)));
     found.or(number.map(|number| number - 1)).ok_or_else(|| {
         let near = meant(name, names.iter().map(String::as_str));
         let there = shown(names);

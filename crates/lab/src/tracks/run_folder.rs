@@ -56,7 +56,11 @@ impl RunFolder {
         let globe = at("longitude").zip(at("latitude"));
         let (axes, velocity) = globe.map_or((axes, velocity), |(east, north)| (vec![east, north], None));
         let unit = table.headings().iter().find(|heading| heading.name == "x").map(|heading| heading.unit.clone());
-        let places = vec![Place { who: Who::Column(at("individual").map_or_else(|| need("id"), Ok)?), points: vec![Point::at(axes)], velocity }];
+        let places = vec![Place {
+            who: Who::Column(at("individual").map_or_else(|| need("id"), Ok)?),
+            points: vec![Point::at(axes)],
+            velocity,
+        }];
         Ok(Plan {
             layout: "run",
             frame: Some(need("frame")?),

@@ -210,7 +210,9 @@ fn moment(path: &Path, plan: &Plan, read: &Gathered) -> Result<Frames, StoreErro
             let there = super::names::shown(&plan.names);
             return Err(wrong(
                 path,
-                &format!("{clockless}, and individual `{name}` twice: name one with --columns frame=NAME; there are {there}"),
+                &format!(
+                    "{clockless}, and individual `{name}` twice: name one with --columns frame=NAME; there are {there}"
+                ),
             ));
         }
     }
@@ -246,9 +248,8 @@ fn timed(path: &Path, plan: &Plan, frame: Vec<i64>, time: Vec<f64>) -> Result<Fr
         let mean = (last.0 - first.0) as f64 / (last.1 - first.1);
         // times may be rounded, to 0.01 s by AnimalTA
         let most = (0.45 / mean).max(0.0051);
-        let fits = |rate: f64| {
-            pairs.iter().all(|pair| ((pair.1 - first.1) - (pair.0 - first.0) as f64 / rate).abs() <= most)
-        };
+        let fits =
+            |rate: f64| pairs.iter().all(|pair| ((pair.1 - first.1) - (pair.0 - first.0) as f64 / rate).abs() <= most);
         if fits(mean) {
             let mean = round_rate(mean, fits);
             rate = Some(mean);

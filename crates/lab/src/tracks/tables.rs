@@ -215,7 +215,8 @@ pub fn events(all: &[Analysed]) -> Vec<Heading> {
 
 /// The events of a recording in the order of time: what was flagged, and what groups did.
 pub fn event_columns(one: &Analysed, run: usize) -> Vec<Values> {
-    let mut words: Vec<String> = [Flag::ImpossibleSpeed, Flag::IdentitySwap].map(|flag| flag.word().to_owned()).to_vec();
+    let mut words: Vec<String> =
+        [Flag::ImpossibleSpeed, Flag::IdentitySwap].map(|flag| flag.word().to_owned()).to_vec();
     let mut rows: Vec<(i64, f64, u16, i64)> = with_tracks!(&one.recording.table, tracks => {
         let row = |&(row, frame, flag): &(usize, usize, Flag)| {
             let word = u16::from(flag == Flag::IdentitySwap);
@@ -228,7 +229,10 @@ pub fn event_columns(one: &Analysed, run: usize) -> Vec<Values> {
         let (Some(frame), Some(time)) = (at("frame"), at("t")) else { continue };
         let event = at("event");
         for row in 0..listing.len() {
-            let label = event.map_or_else(|| card.id.to_owned(), |event| label(one, &card.fields[event], listing.columns[event][row]));
+            let label = event.map_or_else(
+                || card.id.to_owned(),
+                |event| label(one, &card.fields[event], listing.columns[event][row]),
+            );
             let word = words.iter().position(|word| *word == label).unwrap_or_else(|| {
                 words.push(label);
                 words.len() - 1

@@ -112,7 +112,10 @@ fn pedestrian_text_states_rate_and_unit() {
     let text = "# PeTrack project: a.pet\n# framerate: 25 fps\n# id frame x/m y/m z/m\n1\t0\t2.5\t3\t1.76\n1\t1\t2.6\t3\t1.76\n";
     let recording = reads("petrack.txt", text, &Ask::default());
     let understood = &recording.understood;
-    assert_eq!((understood.layout.as_str(), understood.rate, understood.unit.as_str()), ("pedestrian", Some(25.0), "m"));
+    assert_eq!(
+        (understood.layout.as_str(), understood.rate, understood.unit.as_str()),
+        ("pedestrian", Some(25.0), "m")
+    );
     assert!(understood.notes[0].contains("z is the height"));
     let solid = read(&recording.path, None, &ask(&[("z", "z/m")])).unwrap();
     assert!(matches!(solid.table, Table::Space(_)));
@@ -160,7 +163,10 @@ fn deeplabcut_has_body_parts() {
     assert!(open.contains("point=snout") && open.contains("point=mean"), "{open}");
     let asked = |point: &str| Ask { fps: Some(Rate::Known(30.0)), ..ask(&[("point", point)]) };
     let recording = reads("dlc.csv", one, &asked("mean"));
-    assert_eq!((recording.understood.layout.as_str(), place(&recording, 0, "individual")), ("deeplabcut", [20.0, 20.0]));
+    assert_eq!(
+        (recording.understood.layout.as_str(), place(&recording, 0, "individual")),
+        ("deeplabcut", [20.0, 20.0])
+    );
     let sure = Ask { confidence: Some(0.6), ..asked("snout") };
     assert_eq!((reads("dlc.csv", one, &sure).understood.doubtful, recording.understood.unit.as_str()), (1, "px"));
     let several = "scorer,net,net,net,net,net,net\nindividuals,m1,m1,m1,m2,m2,m2\nbodyparts,c,c,c,c,c,c\n\
@@ -219,7 +225,8 @@ fn times_without_a_steady_rate_are_kept() {
     assert_eq!(tracks.times(), [0.0, 1.0, 1.7, 2.9]);
     assert!((1..4).all(|row| (tracks.velocity(row).unwrap().0[0] - 2.0).abs() < 1e-12));
     // a frame that is left out of a steady recording is a gap
-    let recording = reads("gap.csv", "time,id,x,y\n0,a,0,0\n0.1,a,1,0\n0.2,a,2,0\n0.5,a,3,0\n0.6,a,4,0\n", &Ask::default());
+    let recording =
+        reads("gap.csv", "time,id,x,y\n0,a,0,0\n0.1,a,1,0\n0.2,a,2,0\n0.5,a,3,0\n0.6,a,4,0\n", &Ask::default());
     assert_eq!((recording.understood.rate, plane(&recording).frames()), (Some(10.0), &[0, 1, 2, 5, 6][..]));
     assert!(plane(&recording).velocity(3).is_none());
 }
@@ -287,7 +294,9 @@ fn what_is_no_table_is_refused_in_a_sentence() {
         assert!(error.contains(what), "{name}: {error}");
         assert!(error.len() < 500, "one sentence: {error}");
     }
-    assert!(read(Path::new("/nothing/here.csv"), None, &Ask::default()).unwrap_err().to_string().contains("cannot read"));
+    assert!(
+        read(Path::new("/nothing/here.csv"), None, &Ask::default()).unwrap_err().to_string().contains("cannot read")
+    );
 }
 
 /// A Parquet table with each kind of number, as others write them.

@@ -31,7 +31,9 @@ fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
         let there = crate::tracks::names::shown(&names);
         return Err(wrong(
             &head.path,
-            &format!("a table of TRex without x and y of its {wanted}; export `X` and `Y`, with or without `#wcentroid`; there are {there}"),
+            &format!(
+                "a table of TRex without x and y of its {wanted}; export `X` and `Y`, with or without `#wcentroid`; there are {there}"
+            ),
         ));
     };
     let notes = vec![format!("positions of the {}", if *part == "head" { "head" } else { "weighted centroid" })];

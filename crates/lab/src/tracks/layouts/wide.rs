@@ -92,7 +92,10 @@ fn nameless(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
             ));
         }
         (Some(other), ..) => {
-            return Err(wrong(&head.path, &format!("--columns wide={other} does not fit {numbers} numbers; xy or xyz")));
+            return Err(wrong(
+                &head.path,
+                &format!("--columns wide={other} does not fit {numbers} numbers; xy or xyz"),
+            ));
         }
         _ => return Ok(None),
     };
