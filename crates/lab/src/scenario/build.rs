@@ -103,8 +103,8 @@ pub(crate) fn resolved(tree: &Node, desk: &mut Desk) -> Option<Scenario> {
 /// The scenario that a tree says, value by value.
 pub(crate) fn read_tree(tree: &Node, desk: &mut Desk) -> Option<Scenario> {
     let before = desk.problems.len();
-    let scenario = read_kind(tree, desk)
-        .and_then(|()| Scenario::read(tree, &Rule { name: "the file", ..Rule::FREE }, desk));
+    let scenario =
+        read_kind(tree, desk).and_then(|()| Scenario::read(tree, &Rule { name: "the file", ..Rule::FREE }, desk));
     scenario.filter(|_| desk.problems.len() == before)
 }
 

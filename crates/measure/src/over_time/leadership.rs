@@ -60,7 +60,8 @@ impl TrackMetric for Leadership {
                 for &delay in &delays {
                     let shift = delay.unsigned_abs() as usize;
                     let shifted = |k: usize| headings[k].get(shift..).unwrap_or_default();
-                    let (from, to) = if delay >= 0 { (&headings[i][..], shifted(j)) } else { (shifted(i), &headings[j][..]) };
+                    let (from, to) =
+                        if delay >= 0 { (&headings[i][..], shifted(j)) } else { (shifted(i), &headings[j][..]) };
                     let (sum, pairs) = from.iter().zip(to).fold((0.0, 0.0), |(sum, pairs), (&one, &other)| {
                         let both = one != Vector::ZERO && other != Vector::ZERO;
                         if both { (sum + one.dot(other), pairs + 1.0) } else { (sum, pairs) }
