@@ -249,6 +249,9 @@ pub fn read(path: &Path, name: Option<&str>, ask: &Ask) -> Result<Recording, Sto
     let stem = || path.file_stem().map_or_else(|| "recording".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let name = given.unwrap_or_else(stem);
     let (files, folder) = files_of(path)?;
+    // a folder of ours says all of it itself: what is told of tables does not hold for it
+    let own = Ask { individuals: usize::MAX, ..Ask::default() };
+    let ask = if folder.is_some() { &own } else { ask };
     let mut gathered: Option<Gathered> = None;
     let mut plan = Plan::default();
     for file in &files {

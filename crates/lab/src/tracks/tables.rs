@@ -20,8 +20,8 @@ const MOST_WORDS: usize = 60_000;
 
 /// Headings of the tracks, in the layout of a run's trajectory.
 pub fn trajectory(all: &[Analysed]) -> Vec<Heading> {
-    let first = &all[0];
-    let (length, time) = (first.units.length.as_str(), first.units.time.as_str());
+    let (length, time) = (common(all, "length"), common(all, "time"));
+    let (length, time) = (length.as_str(), time.as_str());
     let speed = format!("{length}/{time}");
     let dimensions = all.iter().map(|one| one.recording.understood.extent.len()).max().unwrap_or(2);
     let mut headings = vec![
@@ -174,12 +174,12 @@ pub fn metrics(all: &[Analysed]) -> Vec<Heading> {
     let mut headings = vec![
         Heading::new("run", "1", "Number of the recording, from 0.", Kind::Whole),
         Heading::new("frame", "1", "Number of the frame, as in the recording.", Kind::Long),
-        Heading::new("t", &all[0].units.time, "Time of the frame.", Kind::Double),
+        Heading::new("t", &common(all, "time"), "Time of the frame.", Kind::Double),
         Heading::new("group", "", "Name of the recording.", Kind::Word),
     ];
     headings.extend(COUNTS.iter().map(|(name, about)| Heading::new(name, "1", about, Kind::Long)));
     for card in cards(all) {
-        headings.push(Heading::new(card.id, &unit_of(&all[0], card.unit), card.definition, Kind::Double));
+        headings.push(Heading::new(card.id, &common(all, card.unit), card.definition, Kind::Double));
     }
     headings
 }
@@ -212,7 +212,7 @@ pub fn events(all: &[Analysed]) -> Vec<Heading> {
     vec![
         Heading::new("run", "1", "Number of the recording, from 0.", Kind::Whole),
         Heading::new("frame", "1", "Number of the frame, as in the recording.", Kind::Long),
-        Heading::new("t", &all[0].units.time, "Time of the frame.", Kind::Double),
+        Heading::new("t", &common(all, "time"), "Time of the frame.", Kind::Double),
         Heading::new("event", "", "What happened.", Kind::Word),
         Heading::new("id", "1", "Number of the individual concerned; -1 for none.", Kind::Long),
     ]
@@ -279,6 +279,12 @@ pub fn unit_of(one: &Analysed, unit: &str) -> String {
         _ => unit.to_owned(),
     };
     one.units.of(&unit)
+}
+
+/// The unit that all recordings write; where they differ, the manifest says each one's.
+fn common(all: &[Analysed], unit: &str) -> String {
+    let first = unit_of(&all[0], unit);
+    if all.iter().all(|one| unit_of(one, unit) == first) { first } else { "differs".to_owned() }
 }
 
 /// Name of the table of metrics over time.
