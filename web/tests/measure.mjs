@@ -1,5 +1,5 @@
 // How fast the page and the real server are together, in software WebGL at 1280 x 720. No test: what it prints depends on the
-// machine. `node measure.mjs PROGRAM` (a release build) prints one line of JSON for each size; benches/README.md keeps them.
+// machine. `node measure.mjs PROGRAM [AGENTS...]` (a release build) prints one line of JSON for each size; benches/README.md keeps them.
 
 import { spawn } from "node:child_process";
 import { mkdtempSync, writeFileSync } from "node:fs";
@@ -8,7 +8,7 @@ import { chromium } from "playwright-core";
 
 const program = process.argv[2];
 if (!program) {
-  console.error("usage: node measure.mjs PROGRAM");
+  console.error("usage: node measure.mjs PROGRAM [AGENTS...]");
   process.exit(2);
 }
 const scratch = mkdtempSync(`${tmpdir()}/flockworks-measure-`);
@@ -99,6 +99,7 @@ async function measure(agents) {
       pictures.push(Number(pace[0]));
       reached.push(pace[1]);
     }
+    await page.locator("select.speed").selectOption("20");
     const clicks = [], changes = [];
     const box = await page.locator("canvas").first().boundingBox();
     for (let turn = 0; turn < 11; turn += 1) {
@@ -128,4 +129,5 @@ async function measure(agents) {
   }
 }
 
-for (const agents of [200, 5_000, 20_000, 100_000]) await measure(agents);
+const sizes = process.argv.slice(3).map(Number);
+for (const agents of sizes.length ? sizes : [5_000, 20_000, 100_000]) await measure(agents);
