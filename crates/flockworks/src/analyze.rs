@@ -155,7 +155,7 @@ pub fn analyze(options: &AnalyzeOptions, out: &mut dyn Write) -> Result<(), Faul
     // options and file go the same way, so that both are checked alike
     let text = file::text(&options.file()?);
     let read = file::read("the options", &text, &options.set).map_err(|problems| {
-        let list: Vec<String> = problems.list.iter().map(|problem| told(problem)).collect();
+        let list: Vec<String> = problems.list.iter().map(told).collect();
         Fault::Input(list.join("\n"))
     })?;
     let job = Job {

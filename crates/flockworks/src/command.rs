@@ -38,7 +38,7 @@ pub enum Command {
     /// Run a file: results, tables and a page in a folder. The same command again continues where it stopped.
     Run(RunOptions),
     /// Measure tracks of animals, people or simulations: tables of text or Parquet, or folders of runs.
-    Analyze(AnalyzeOptions),
+    Analyze(Box<AnalyzeOptions>),
     /// Look at a world while it runs and change it, or at runs that were recorded: a page on this machine alone.
     View(ViewOptions),
     /// Check files and run nothing: everything that is wrong, at its place.
