@@ -320,8 +320,8 @@ fn generation_of(plan: &Plan, numbers: &[f64]) -> Option<Generation> {
 /// A search of any kind.
 enum Searching {
     Genetic(Genetic),
-    Strategy(EvolutionStrategy),
-    Elites(Elites),
+    Strategy(Box<EvolutionStrategy>),
+    Elites(Box<Elites>),
 }
 
 impl Searching {
@@ -349,12 +349,12 @@ impl Searching {
             Search::CmaEs(form) => {
                 let scores: Vec<Vec<f64>> =
                     there.iter().map(|generation| generation.evaluated.scores.clone()).collect();
-                Self::Strategy(EvolutionStrategy::resume(domain, plan.strategy(form), seed, &scores)?)
+                Self::Strategy(Box::new(EvolutionStrategy::resume(domain, plan.strategy(form), seed, &scores)?))
             }
             Search::MapElites(form) => {
                 let (options, kinds) = plan.elites(form)?;
                 let rounds: Vec<Vec<Told>> = there.iter().map(told).collect();
-                Self::Elites(Elites::resume(domain, &kinds, options, seed, &rounds)?)
+                Self::Elites(Box::new(Elites::resume(domain, &kinds, options, seed, &rounds)?))
             }
         })
     }

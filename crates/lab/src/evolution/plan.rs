@@ -352,7 +352,7 @@ impl Reader<'_> {
                 return;
             }
         };
-        let natural = descriptor.as_ref().map_or((None, None), |descriptor| natural_ends(descriptor));
+        let natural = descriptor.as_ref().map_or((None, None), natural_ends);
         let (Some(low), Some(high)) = (gene.low.or(natural.0), gene.high.or(natural.1)) else {
             let missing = if gene.low.or(natural.0).is_none() { "low" } else { "high" };
             let what = format!("the gene `{name}` has no `{missing}`, and its parameter none of its own");
