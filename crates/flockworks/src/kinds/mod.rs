@@ -64,7 +64,7 @@ pub trait Kind: Sync {
     /// # Errors
     /// A folder that is not complete, or of a kind that records nothing.
     fn recordings(&self, folder: &Path) -> Result<usize, Fault> {
-        let what = "holds no recording; view the file that made it, and of a study name --cell and --trial";
+        let what = "is no folder of a single run; view the file, and of a study name --cell and --trial";
         wrong(format!("`{}` {what}", folder.display()))
     }
     /// One of them.

@@ -152,6 +152,13 @@ fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), 
     };
     if let Some(out) = &request.out {
         let manifest = folder::manifest(out)?;
+        let kind = manifest.as_ref().and_then(|manifest| manifest.get("kind")).and_then(Json::as_str);
+        if let Some(kind) = kind.filter(|&kind| kind != "scenario") {
+            return Err(StoreError::Refused(format!(
+                "`{}` holds another run, of the kind {kind}; choose another folder with --out",
+                out.display()
+            )));
+        }
         if manifest.as_ref().is_some_and(|manifest| manifest.get("identity").is_none()) {
             return Err(StoreError::Damaged(format!(
                 "`{}` does not say what was run; choose another folder with --out",
