@@ -13,10 +13,6 @@ pub const CANDIDATES: &str = "candidates.parquet";
 /// A row for each champion.
 pub const CHAMPIONS: &str = "champions.parquet";
 
-/// Names that columns have already.
-pub const RESERVED: [&str; 8] =
-    ["run", "seed", "generation", "candidate", "fitness", "fitness_best", "fitness_mean", "fitness_sd"];
-
 /// Best, mean, standard deviation (n - 1) and worst of the scores that are there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {

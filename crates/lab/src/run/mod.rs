@@ -182,35 +182,17 @@ fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), 
             if lines.is_empty() {
                 lines.push("the same keys in another order, which decides about ids and draws".to_owned());
             }
-            let more = lines.len().saturating_sub(8);
-            lines.truncate(8);
-            if more > 0 {
-                lines.push(format!("and {more} more"));
-            }
             return Err(StoreError::Refused(format!(
                 "`{}` holds another run; choose another folder with --out\n  {}",
                 out.display(),
-                lines.join("\n  ")
+                folder::first(lines)
             )));
         }
         return Ok((out.clone(), manifest));
     }
-    let name = request.read.sources.name(0);
-    let stem = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("run");
-    for number in 1.. {
-        let path = Path::new("runs").join(if number == 1 { stem.to_owned() } else { format!("{stem}-{number}") });
-        if !path.exists() {
-            return Ok((path, None));
-        }
-        // a damaged or foreign folder is somebody's, and what another build began stays as it is: the next number is free
-        if let Ok(Some(manifest)) = folder::manifest(&path)
-            && same(&manifest)
-            && other_build(&manifest).is_none()
-        {
-            return Ok((path, Some(manifest)));
-        }
-    }
-    Err(StoreError::Refused("no folder is free below `runs`".into()))
+    let stem = request.read.sources.stem(0).unwrap_or("run");
+    // what another build began stays as it is
+    folder::free(stem, &|manifest| same(manifest) && other_build(manifest).is_none())
 }
 
 /// Threads that pay for so many agents.

@@ -143,30 +143,43 @@ pub fn place(
         let lines = manifest(out)?.map_or_else(Vec::new, |manifest| differences(&manifest));
         return if lines.is_empty() { Ok(out.to_owned()) } else { Err(other(out, (what, may_grow), lines)) };
     }
+    free(stem, &|manifest| differences(manifest).is_empty()).map(|(path, _)| path)
+}
+
+/// A folder below `runs`, called `stem`, that is free or holds what is the `same` by its manifest, which comes with it.
+///
+/// # Errors
+/// Where none is free.
+pub fn free(stem: &str, same: &dyn Fn(&Json) -> bool) -> Result<(PathBuf, Option<Json>), StoreError> {
     for number in 1.. {
         let path = Path::new("runs").join(if number == 1 { stem.to_owned() } else { format!("{stem}-{number}") });
         if !path.exists() {
-            return Ok(path);
+            return Ok((path, None));
         }
         // a damaged or foreign folder is somebody's: the next number is free
         if let Ok(Some(manifest)) = manifest(&path)
-            && differences(&manifest).is_empty()
+            && same(&manifest)
         {
-            return Ok(path);
+            return Ok((path, Some(manifest)));
         }
     }
     Err(StoreError::Refused("no folder is free below `runs`".into()))
 }
 
 /// Says that a folder holds another study (or whatever it is), with the first lines of where it differs.
-pub fn other(path: &Path, (what, may_grow): (&str, &str), mut lines: Vec<String>) -> StoreError {
+pub fn other(path: &Path, (what, may_grow): (&str, &str), lines: Vec<String>) -> StoreError {
+    let help = format!("{may_grow} may be added, nothing else may change; choose another folder with --out");
+    StoreError::Refused(format!("`{}` holds another {what}; {help}\n  {}", path.display(), first(lines)))
+}
+
+/// The first lines of where two files differ, and how many more there are.
+pub fn first(mut lines: Vec<String>) -> String {
     let more = lines.len().saturating_sub(8);
     lines.truncate(8);
     if more > 0 {
         lines.push(format!("and {more} more"));
     }
-    let help = format!("{may_grow} may be added, nothing else may change; choose another folder with --out");
-    StoreError::Refused(format!("`{}` holds another {what}; {help}\n  {}", path.display(), lines.join("\n  ")))
+    lines.join("\n  ")
 }
 
 /// Where two files as resolved differ, one line for each path.
