@@ -18,7 +18,7 @@ use swarm::{World, WorldPlan};
 /// Shortest time over which anything is measured, in seconds; shorter trials are repeated within a measurement.
 const SHORTEST: f64 = 0.2;
 /// Neighbours that `bench models` aims at where a law's sets depend on the density.
-const NEIGHBOURS: f64 = 16.0;
+pub(crate) const NEIGHBOURS: f64 = 16.0;
 
 /// Precisions to run in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -34,7 +34,7 @@ pub enum Precisions {
 /// Options of `bench`.
 #[derive(Args, Debug)]
 pub struct BenchOptions {
-    /// Workloads: W1 W1c W2 W3 W4 W5, a variant such as W4/Align/6, or `models`; W1 W2 W3 W4/Align/6 if none is given.
+    /// Workloads: W1 W1c W2 W3 W4 W5, a variant such as W4/Align/6, `models`, or `compositions`; W1 W2 W3 W4/Align/6 if none is given.
     pub workloads: Vec<String>,
     /// Numbers of agents, in place of each workload's own.
     #[arg(long, value_delimiter = ',', value_name = "N,N,..", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
@@ -155,6 +155,12 @@ pub fn bench(options: &BenchOptions, out: &mut dyn Write) -> Result<(), Fault> {
             return wrong("`models` does not go together with other workloads; run them one after the other");
         }
         return of_models(options, out);
+    }
+    if names.contains(&"compositions") {
+        if names.len() > 1 {
+            return wrong("`compositions` does not go together with other workloads; run them one after the other");
+        }
+        return crate::compositions::bench(options, out);
     }
     let usual = ["W1", "W2", "W3", "W4/Align/6"];
     let sizes: Vec<usize> = options.agents.iter().map(|&n| n as usize).collect();
@@ -328,7 +334,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-fn median(values: &[f64]) -> f64 {
+pub(crate) fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let n = sorted.len();
@@ -528,7 +534,7 @@ fn cost(
 }
 
 /// The side of a box in which members have about [`NEIGHBOURS`] neighbours, where that depends on the side.
-fn fitting_side(
+pub(crate) fn fitting_side(
     agents: usize,
     dimension: usize,
     build: &dyn Fn(f64) -> Result<Box<dyn Running>, Fault>,

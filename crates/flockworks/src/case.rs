@@ -598,8 +598,10 @@ fn parameter(at: &At<'_>) -> Result<Value, Fault> {
         Json::Number(_) => Value::Number(at.number()?),
         Json::String(text) => Value::Text(text.clone()),
         Json::Array(_) => Value::List(at.list()?.iter().map(parameter).collect::<Result<_, _>>()?),
-        Json::Null | Json::Object(_) => {
-            return at.fault("expected a number, true or false, a text, or a list");
+        Json::Object(_) => {
+            let below = |(name, value): (&str, At<'_>)| Ok((name.to_owned(), parameter(&value)?));
+            Value::Table(at.entries()?.into_iter().map(below).collect::<Result<_, Fault>>()?)
         }
+        Json::Null => return at.fault("expected a number, true or false, a text, a list, or an object"),
     })
 }

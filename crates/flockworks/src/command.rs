@@ -11,6 +11,7 @@ use crate::metrics::{MetricsOptions, metrics};
 use crate::models::{ModelsOptions, models};
 use crate::run::{self, CheckOptions, ReportOptions, RunOptions};
 use crate::step::{StepOptions, step};
+use crate::terms::{TermsOptions, terms};
 use crate::view::{ViewOptions, view};
 use clap::{Parser, Subcommand};
 use std::io::Write;
@@ -69,6 +70,8 @@ pub enum Command {
     Eval(EvalOptions),
     /// List the models, or show one: equations, parameters, stages, state, random quantities, classification.
     Models(ModelsOptions),
+    /// List the stock terms of compositions, or show one: vector, parameters, edge rules.
+    Terms(TermsOptions),
     /// Measure the speed of the workloads, or of every model.
     ///
     /// W1, W1c  Vicsek, 2-D: near uniform, and clustered
@@ -77,6 +80,7 @@ pub enum Command {
     /// W4       a trial of the behaviour-selection study, 3-D: W4/Align/6, W4/Prob/6, W4/Attract/6 and .../199
     /// W5       a generation of competing flocks, 2-D
     /// models   each model beside a plain hand-written loop, where there is one
+    /// compositions  compositions of stock terms beside the compiled models of the same laws
     ///
     /// Seeds are fixed. Times are medians after a warm-up, of runs interleaved over threads and precisions.
     #[command(verbatim_doc_comment)]
@@ -110,6 +114,7 @@ pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
         Command::Conformance(options) => conformance(options, out).map(|good| u8::from(!good)),
         Command::Eval(options) => eval(options, out).map(|()| 0),
         Command::Models(options) => models(options, out).map(|()| 0),
+        Command::Terms(options) => terms(options, out).map(|()| 0),
         Command::Bench(options) => bench(options, out).map(|()| 0),
     }
 }

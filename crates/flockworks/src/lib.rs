@@ -4,6 +4,7 @@ pub mod analyze;
 pub mod bench;
 pub mod case;
 pub mod command;
+pub mod compositions;
 pub mod conformance;
 pub mod emit;
 pub mod eval;
@@ -18,6 +19,7 @@ pub mod run;
 pub mod step;
 pub mod table;
 pub mod taxonomy;
+pub mod terms;
 pub mod view;
 pub mod workloads;
 

@@ -158,6 +158,7 @@ pub(crate) fn json_of(value: &Value) -> Json {
         Value::Truth(truth) => Json::from(*truth),
         Value::Text(text) => Json::from(text.as_str()),
         Value::List(list) => list.iter().map(json_of).collect(),
+        Value::Table(table) => Json::Object(table.iter().map(|(name, value)| (name.clone(), json_of(value))).collect()),
     }
 }
 
@@ -217,7 +218,7 @@ fn taxonomy(taxonomy: &Taxonomy) -> Vec<(&'static str, String)> {
     ]
 }
 
-fn parameters_table(parameters: &[Descriptor]) -> Table {
+pub(crate) fn parameters_table(parameters: &[Descriptor]) -> Table {
     let mut table = Table::new(&["name", "alias", "symbol", "unit", "range", "default", "origin", "what it is"]);
     for p in parameters {
         table.row(vec![
@@ -289,14 +290,7 @@ fn card_text(entry: &Entry) -> String {
     part("Equations", indented(card.equations));
     let stage = |(name, text): (&'static str, &str)| (name, text.to_owned());
     part("Stages", rows(&stages(entry).into_iter().map(stage).collect::<Vec<_>>()));
-    let mut body = String::new();
-    for p in (entry.parameters)() {
-        let alias = p.alias.map_or_else(String::new, |alias| format!(" (or {alias})"));
-        let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
-        let symbol = if p.symbol == "-" { String::new() } else { format!(", symbol {}", p.symbol) };
-        body += &format!("  {}{alias} = {}{unit}{symbol}; {}\n", p.name, p.default, p.origin.word());
-        body += &wrapped(&format!("{} {}.", p.about.trim(), capital(&takes(&p))), 6);
-    }
+    let body = card_parameters(&(entry.parameters)());
     part("Parameters", if body.is_empty() { "  none\n".into() } else { body });
     let columns = columns_table((entry.columns)());
     part("State columns", if columns.is_empty() { String::new() } else { indented(&columns.text()) });
@@ -308,6 +302,19 @@ fn card_text(entry: &Entry) -> String {
     text.truncate(text.trim_end().len());
     text.push('\n');
     text
+}
+
+/// The parameters, each with its sentence.
+pub(crate) fn card_parameters(parameters: &[Descriptor]) -> String {
+    let mut body = String::new();
+    for p in parameters {
+        let alias = p.alias.map_or_else(String::new, |alias| format!(" (or {alias})"));
+        let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
+        let symbol = if p.symbol == "-" { String::new() } else { format!(", symbol {}", p.symbol) };
+        body += &format!("  {}{alias} = {}{unit}{symbol}; {}\n", p.name, p.default, p.origin.word());
+        body += &wrapped(&format!("{} {}.", p.about.trim(), capital(&takes(p))), 6);
+    }
+    body
 }
 
 fn capital(text: &str) -> String {

@@ -73,7 +73,7 @@ pub struct Workload {
 }
 
 /// Names that a user may give, with what they stand for.
-pub const NAMES: [(&str, &str); 13] = [
+pub const NAMES: [(&str, &str); 14] = [
     ("W1", "Vicsek, 2-D, noise amplitude 4: near uniform"),
     ("W1c", "Vicsek, 2-D, noise amplitude 2: clustered"),
     ("W2", "boids with unit headings, 3-D"),
@@ -87,6 +87,7 @@ pub const NAMES: [(&str, &str); 13] = [
     ("W4/Attract/199", "its variant Attract with all neighbours"),
     ("W5", "a generation of competing flocks"),
     ("models", "every model of the list, beside a plain loop where there is one"),
+    ("compositions", "compositions of stock terms beside the compiled models of the same laws"),
 ];
 
 impl Workload {

@@ -8,10 +8,12 @@ pub mod detection;
 pub mod engine;
 pub mod models;
 pub mod motion;
+pub mod names;
 pub mod parameters;
 pub mod physics;
 pub mod resources;
 pub mod selection;
 pub mod sensing;
+pub mod terms;
 
 pub use engine::{Driver, Group, World, WorldError, WorldPlan};

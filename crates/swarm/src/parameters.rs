@@ -16,6 +16,8 @@ pub enum Value {
     Text(String),
     /// A list of values.
     List(Vec<Value>),
+    /// Values by name.
+    Table(Values),
 }
 
 impl From<f64> for Value {
@@ -59,6 +61,13 @@ impl core::fmt::Display for Value {
                     write!(out, "{value}")?;
                 }
                 write!(out, "]")
+            }
+            Self::Table(table) => {
+                write!(out, "{{")?;
+                for (k, (name, value)) in table.iter().enumerate() {
+                    write!(out, "{} {name} = {value}", if k > 0 { "," } else { "" })?;
+                }
+                write!(out, " }}")
             }
         }
     }
@@ -206,6 +215,10 @@ pub enum Kind {
     PerAgent(Box<Kind>),
     /// A point, a list with one for each member, or an empty list.
     Points,
+    /// A name that the user chooses.
+    Name,
+    /// A list of stock terms ([`crate::terms`]).
+    Terms,
 }
 
 impl core::fmt::Display for Kind {
@@ -223,6 +236,8 @@ impl core::fmt::Display for Kind {
             Self::Points => {
                 write!(out, "a point as a list of coordinates, a list with one point for each member, or an empty list")
             }
+            Self::Name => write!(out, "a name"),
+            Self::Terms => write!(out, "a list of stock terms"),
         }
     }
 }
@@ -311,6 +326,18 @@ impl Parameter for bool {
     }
     fn write(&self) -> Value {
         Value::Truth(*self)
+    }
+    fn numbers(&self, _: &mut dyn FnMut(f64)) {}
+}
+impl Parameter for String {
+    fn takes() -> Kind {
+        Kind::Name
+    }
+    fn read(value: &Value) -> Option<Self> {
+        if let Value::Text(name) = value { Some(name.clone()) } else { None }
+    }
+    fn write(&self) -> Value {
+        Value::from(self.as_str())
     }
     fn numbers(&self, _: &mut dyn FnMut(f64)) {}
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask docs`: a page for each model and an index of them, the keys of files, the metrics: from what the code says
+//! `cargo xtask docs`: a page for each model and an index of them, the keys of files, the metrics, the stock terms: from what the code says
 //! of itself.
 
 use crate::failure::Failure;
@@ -9,6 +9,7 @@ const FOLDER: &str = "docs/models";
 const INDEX: &str = "docs/models/README.md";
 const REFERENCE: &str = "docs/reference";
 const METRICS: &str = "docs/reference/metrics.md";
+const TERMS: &str = "docs/reference/terms.md";
 const NOTE: &str = "<!-- Written by `cargo xtask docs` from the code; edit that instead. -->\n\n";
 
 /// Writes the pages; removes those of models that are gone.
@@ -63,6 +64,8 @@ fn pages(workspace: &Workspace) -> Result<Vec<(String, String)>, Failure> {
     }
     let metrics = flockworks(workspace, &["metrics", "--format", "md"])?;
     pages.push((METRICS.to_owned(), format!("{NOTE}# The metrics\n\n{metrics}")));
+    let terms = flockworks(workspace, &["terms", "--format", "md"])?;
+    pages.push((TERMS.to_owned(), format!("{NOTE}# The stock terms of compositions\n\n{terms}")));
     Ok(pages)
 }
 

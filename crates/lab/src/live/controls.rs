@@ -5,6 +5,7 @@ use crate::scenario::Scenario;
 use crate::scenario::agents::{Given, default_in_files, unit_in_files};
 use serde_json::{Value as Json, json};
 use swarm::parameters::{Descriptor, Kind, Range, Value};
+use swarm::terms;
 
 /// The controls as the scene lists them. Parameters that are no single value have none.
 pub(super) fn controls(scenario: &Scenario, tree: &Node) -> Json {
@@ -23,15 +24,45 @@ pub(super) fn controls(scenario: &Scenario, tree: &Node) -> Json {
             };
             let alias = descriptor.alias.filter(|alias| written.is_some_and(|node| node.get(alias).is_some()));
             let path = format!("{below}.{}", alias.unwrap_or(descriptor.name));
-            let unit = scenario.units.of(&unit_in_files(&descriptor));
-            list.extend(control(&descriptor, &path, name, &unit, &value, &default));
+            let mut one = |descriptor: &Descriptor, label: &str, path: &str, value: &Value, default: &Value| {
+                let unit = scenario.units.of(&unit_in_files(descriptor));
+                list.extend(control(descriptor, label, path, name, &unit, value, default));
+            };
+            match &value {
+                // terms have controls where they are written
+                Value::List(terms) if descriptor.takes == Kind::Terms && given.is_some() => {
+                    for (k, term) in terms.iter().enumerate() {
+                        of_term(term, &format!("{path}.{k}"), &mut one);
+                    }
+                }
+                value => one(&descriptor, descriptor.name, &path, value, &default),
+            }
         }
     }
     Json::Array(list)
 }
 
+/// Calls `one` for each parameter of a stock term.
+fn of_term(term: &Value, path: &str, one: &mut dyn FnMut(&Descriptor, &str, &str, &Value, &Value)) {
+    let Value::Table(tagged) = term else { return };
+    for (id, given) in tagged {
+        let (Some(entry), Value::Table(given)) = (terms::find(id), given) else { continue };
+        let about = match given.get(terms::SET) {
+            Some(Value::Text(set)) => format!("{id} {set}"),
+            _ => id.clone(),
+        };
+        for descriptor in entry.parameters() {
+            let default = default_in_files(&descriptor);
+            let value = given.get(descriptor.name).unwrap_or(&default);
+            let label = format!("{about}: {}", descriptor.name);
+            one(&descriptor, &label, &format!("{path}.{id}.{}", descriptor.name), value, &default);
+        }
+    }
+}
+
 fn control(
     descriptor: &Descriptor,
+    label: &str,
     path: &str,
     group: &str,
     unit: &str,
@@ -53,7 +84,7 @@ fn control(
     let mut control = json!({
         "path": path,
         "group": group,
-        "name": descriptor.name,
+        "name": label,
         "symbol": descriptor.symbol,
         "about": descriptor.about.trim(),
         "unit": if unit == "1" || unit == "-" { "" } else { unit },

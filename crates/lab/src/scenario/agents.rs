@@ -1,12 +1,13 @@
 //! The model of a group, with its parameters; values that differ from member to member.
 
-use crate::file::form::{Variant, place_of};
+use crate::file::form::{Variant, choice, place_of};
 use crate::file::{Desk, Field, Form, Node, Rule, Shape, Span, Tree};
 use crate::tagged;
 use space::random::{Purpose, uniform};
 use space::spelling::nearest;
 use swarm::models;
-use swarm::parameters::{Descriptor, Kind, ParameterError, Range, Value};
+use swarm::parameters::{Descriptor, Kind, ParameterError, Range, Value, Values};
+use swarm::terms;
 
 tagged! {
     /// A distribution over the members of a group.
@@ -182,6 +183,7 @@ fn tree_of(value: &Value) -> Tree {
         Value::Truth(truth) => Tree::Truth(*truth),
         Value::Text(text) => Tree::Text(text.clone()),
         Value::List(list) => Tree::list(list.iter().map(tree_of)),
+        Value::Table(table) => Tree::table(table.iter().map(|(name, value)| (name.clone(), tree_of(value)))),
     }
 }
 
@@ -284,12 +286,18 @@ fn parameter(
         let names = descriptors.iter().flat_map(|d| [Some(d.name), d.alias].into_iter().flatten());
         let help = match nearest(key, names) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => format!("`flockworks models {model}` lists its parameters"),
+            None => {
+                let verb = if terms::find(model).is_some() { "terms" } else { "models" };
+                format!("`flockworks {verb} {model}` lists its parameters")
+            }
         };
-        desk.problem(&entry.span, format!("`{model}` has no parameter `{key}`"), "not a parameter of this model", help);
+        desk.problem(&entry.span, format!("`{model}` has no parameter `{key}`"), "not one of its parameters", help);
         return None;
     };
     let rule = Rule { name: key, unit: "", range: descriptor.range };
+    if descriptor.takes == Kind::Terms {
+        return Some((descriptor.name.to_owned(), Given::Value(terms(&entry.node, &rule, desk)?)));
+    }
     let per_agent = matches!(&descriptor.takes, Kind::PerAgent(one) if matches!(**one, Kind::Number));
     if let Tree::Table(_) = entry.node.tree {
         if !per_agent {
@@ -324,6 +332,36 @@ fn parameter(
     }
 }
 
+/// The stock terms of a composition, each with all its parameters.
+fn terms(node: &Node, rule: &Rule<'_>, desk: &mut Desk) -> Option<Value> {
+    let Tree::List(list) = &node.tree else {
+        desk.kind(node, rule, "a list of stock terms");
+        return None;
+    };
+    if list.is_empty() {
+        let help = "`flockworks terms` lists them";
+        desk.problem(&node.span, "a composition needs at least one term", "an empty list", help);
+        return None;
+    }
+    let ids: Vec<&str> = terms::LIST.iter().map(|entry| entry.card.id).collect();
+    let one = |node: &Node, desk: &mut Desk| {
+        let (id, below) = choice(node, &Rule { name: "a term", ..*rule }, &ids, desk)?;
+        let descriptors = terms::find(id)?.parameters();
+        let mut values: Values = descriptors.iter().map(|d| (d.name.to_owned(), default_in_files(d))).collect();
+        let mut fine = true;
+        for entry in desk.table(&below, rule)? {
+            match parameter(&descriptors, id, entry, desk) {
+                Some((name, Given::Value(value))) => drop(values.insert(name, value)),
+                _ => fine = false,
+            }
+        }
+        fine.then(|| Value::Table(Values::from([(id.to_owned(), Value::Table(values))])))
+    };
+    // every term is read, so that every problem is found
+    let read: Vec<Option<Value>> = list.iter().map(|node| one(node, desk)).collect();
+    read.into_iter().collect::<Option<_>>().map(Value::List)
+}
+
 /// A parameter as a key of a file.
 fn field(descriptor: &Descriptor) -> Field {
     Field {
@@ -356,6 +394,18 @@ fn shape_of(kind: &Kind, range: Range) -> Shape {
         Kind::Points => {
             let point = Shape::List(Box::new(number));
             Shape::Either(vec![point.clone(), Shape::List(Box::new(point))])
+        }
+        Kind::Name => Shape::Text,
+        Kind::Terms => {
+            fn variants() -> Vec<Variant> {
+                let variant = |entry: &terms::Entry| {
+                    let fields = entry.parameters().iter().map(field).collect();
+                    Variant { name: entry.card.id, about: entry.card.about, shape: Shape::Fields(fields) }
+                };
+                terms::LIST.iter().map(variant).collect()
+            }
+            let about = "A stock term, by its id, with its parameters.";
+            Shape::List(Box::new(Shape::Tagged { name: "Term", about, variants }))
         }
     }
 }

@@ -6,6 +6,7 @@ use super::sensing::{Detection, Occlusion};
 use super::start::{Heading, Place};
 use super::{Choice, Clock, Driver, Edges, Group, Order, Scenario, Sensing, Start, body::BodyMobility};
 use crate::file::Form;
+use swarm::parameters::{Kind, Value};
 
 /// The paragraphs.
 pub fn methods(scenario: &Scenario, schedule: &Schedule, seed: u64) -> Vec<String> {
@@ -109,6 +110,9 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
         let unit = if unit == "1" || unit == "-" { String::new() } else { format!(" {}", scenario.units.of(&unit)) };
         match given {
             Given::Value(value) if *value == default_in_files(descriptor) => {}
+            Given::Value(Value::List(terms)) if descriptor.takes == Kind::Terms => {
+                changed.push(format!("{parameter}: {}", listed(&terms.iter().map(term).collect::<Vec<_>>())));
+            }
             Given::Value(value) => {
                 let text = value.to_string();
                 let text = if text.chars().count() > 60 {
@@ -176,6 +180,17 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
         }
     }
     text
+}
+
+/// A stock term with its parameters.
+fn term(term: &Value) -> String {
+    let Value::Table(tagged) = term else { return String::new() };
+    let one = |(id, given): (&String, &Value)| {
+        let Value::Table(given) = given else { return id.clone() };
+        let given: Vec<String> = given.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        format!("{id} ({})", given.join(", "))
+    };
+    tagged.iter().map(one).collect()
 }
 
 fn selection(choice: &Choice) -> String {

@@ -834,11 +834,18 @@ fn chosen_sets<R: Scalar, const D: usize>(
         let Some(set) = sets.iter_mut().find(|set| set.name == name) else {
             let names: Vec<&str> = own.iter().map(|set| set.name).collect();
             let there = if names.is_empty() { "it has none".into() } else { format!("it has {}", names.join(", ")) };
-            return Err(in_group(group, format!("`{}` has no named set `{name}`; {there}", group.model)));
+            let meant = nearest(name, names.into_iter()).map_or_else(String::new, |n| format!("; did you mean `{n}`?"));
+            return Err(in_group(group, format!("`{}` has no named set `{name}`; {there}{meant}", group.model)));
         };
         set.perception = perception.clone();
     }
     for set in &sets {
+        if set.is_unsaid() && !group.sets.iter().any(|(name, _)| name == set.name) {
+            let given: Vec<&str> = group.sets.iter().map(|(name, _)| name.as_str()).collect();
+            let there = if given.is_empty() { "it has no sets".into() } else { format!("it has {}", given.join(", ")) };
+            let problem = format!("set `{}` is named by a term, and must be said in the selection; {there}", set.name);
+            return Err(in_group(group, problem));
+        }
         set.perception.check().map_err(|problem| in_group(group, format!("set `{}`: {problem}", set.name)))?;
         if let Perception::FixedSet(lists) = &set.perception
             && lists.len() != group.count

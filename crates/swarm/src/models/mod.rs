@@ -164,6 +164,20 @@ where
     prepared(&model, members, sets, reach, build)
 }
 
+/// A model whose law is put together when its parameters are known.
+trait Composite<R: Scalar, const D: usize>: Law<R> {
+    /// What it says of itself, with its kernel.
+    fn prepared(self, members: usize) -> Result<Prepared<R, D>, ParameterError>;
+}
+
+/// A law that is put together from its parameters.
+fn composes<R: Scalar, const D: usize, M: Composite<R, D>>(
+    values: &Values,
+    members: usize,
+) -> Result<Prepared<R, D>, ParameterError> {
+    M::from_values(values)?.prepared(members)
+}
+
 /// A model of the list.
 pub struct Entry {
     /// Its description of itself.
@@ -234,8 +248,8 @@ macro_rules! models {
     };
 }
 
-// one line a model: whether it streams or is given lists (`_as`: through the law that its family shares), file and type,
-// dimensions
+// one line a model: whether it streams or is given lists (`_as`: through the law that its family shares) or is composed of its
+// parameters, file and type, dimensions
 models! {
     streams vicsek_1995::Vicsek1995 in [2, 3];
     streams_as czirok_1997::Czirok1997 in [2, 3];
@@ -306,6 +320,7 @@ models! {
     lists codling_2007::Codling2007 in [2, 3];
     streams boids_unit_heading::BoidsUnitHeading in [2, 3];
     streams abm_flocking::AbmFlocking in [2];
+    composes composed::Composed in [1, 2, 3];
 }
 
 /// The model of an id.

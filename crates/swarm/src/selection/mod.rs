@@ -71,6 +71,14 @@ impl<R, const D: usize> NamedSet<R, D> {
     pub fn new(name: &'static str, perception: Perception<R, D>) -> Self {
         Self { name, perception }
     }
+    /// A named set of which only the name is known: a group's selection has to say who is in it.
+    pub fn unsaid(name: &'static str) -> Self {
+        Self { name, perception: Perception::Union(Vec::new()) }
+    }
+    /// Whether it was left so.
+    pub fn is_unsaid(&self) -> bool {
+        matches!(&self.perception, Perception::Union(parts) if parts.is_empty())
+    }
 }
 
 /// So many named sets can be rings at once: the zones of repulsion, alignment and attraction of many laws.
