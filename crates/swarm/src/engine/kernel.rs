@@ -1,8 +1,8 @@
 //! One group's way through the stages: chosen once, called once per block of agents.
 
 use crate::motion::{
-    Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Marks, Me, MeLanes, Model, Motion, NearItem, NearObstacle,
-    Other, Percepts, Start, Stream, Summed, Trace, WIDEST, splat,
+    Abreast, Agents, Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Marks, Me, MeLanes, Model, Motion, NearItem,
+    NearObstacle, Other, Percepts, Single, Start, Stream, Summed, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::Mobility;
@@ -177,6 +177,8 @@ pub(crate) struct Scratch<R, const D: usize> {
     pub(crate) body: Vec<R>,
     pub(crate) robot: RobotScratch<R>,
     segments: Vec<Segment<R, D>>,
+    /// The agents of a sweep that move abreast.
+    agents: Agents<R, D>,
 }
 
 impl<R: Scalar, const D: usize> Scratch<R, D> {
@@ -199,6 +201,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             body: Vec::new(),
             robot: RobotScratch::default(),
             segments: Vec::new(),
+            agents: Agents::new(0),
         }
     }
     /// Makes room for so many more, and for a full vector of lanes after them.
@@ -1046,16 +1049,18 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         matches!(&self.stages.sensing, Sensing::Scanner(robot) if robot.association.is_some())
     }
 
-    /// One decision. `trace` is given by explanations alone; a step is compiled without it.
+    /// Everything that comes before the law, and then what is to be done with it. `trace` is given by explanations alone; a
+    /// step is compiled without it.
     #[inline(always)]
-    fn decide(
+    fn perceive<P: Perceiving<R, D>>(
         &self,
         view: &View<'_, R, D>,
         row: usize,
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
         trace: Option<&mut Trace<R, D>>,
-    ) -> Motion<R, D> {
+        then: P,
+    ) -> P::Found {
         let stages = &self.stages;
         let mut indirect = false;
         // an explanation goes the long way, over lists, which comes to the same
@@ -1103,9 +1108,101 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             around: stages.around(view, row, position, &obstacles),
             trace,
         };
-        let motion = self.law.decide(&mut me, &seen, &draws);
+        let found = then.by(&mut me, &seen, &draws);
         scratch.obstacles = obstacles;
-        stages.wanted(view, row, motion)
+        found
+    }
+
+    /// One decision.
+    #[inline(always)]
+    fn decide(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+        trace: Option<&mut Trace<R, D>>,
+    ) -> Motion<R, D> {
+        let motion = self.perceive(view, row, scratch, memory, trace, Deciding(&self.law));
+        self.stages.wanted(view, row, motion)
+    }
+
+    /// The memory of an agent of this sweep.
+    ///
+    /// # Safety
+    /// No other worker sweeps this row.
+    #[inline(always)]
+    unsafe fn memory<'m>(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        out: &'m Writer<'_, R, D>,
+    ) -> Option<&'m mut Memory<R>> {
+        let id = view.now.id[row] as usize;
+        // SAFETY: an agent's memory is touched by the sweep of its row alone.
+        if self.remembers() { unsafe { out.memory.part(id..id + 1) }.first_mut() } else { None }
+    }
+
+    /// Whether a row is to decide; the dead are written as they are.
+    #[inline(always)]
+    fn decides(&self, view: &View<'_, R, D>, row: usize, out: &Writer<'_, R, D>) -> bool {
+        if !self.stages.mine(view.now.id[row]) {
+            return false;
+        }
+        let dead = view.dead(view.now, row);
+        if dead {
+            // SAFETY: rows of one sweep are written by it alone.
+            unsafe { out.write(row, view.now.position(row), view.now.velocity(row)) };
+        }
+        !dead
+    }
+
+    /// Free space all round that the last agent that perceived knows of.
+    #[inline(always)]
+    fn room(&self, scratch: &Scratch<R, D>) -> R {
+        match (&self.stages.sensing, self.stages.obstacle_reach) {
+            (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() => reach - self.stages.radius,
+            _ => R::ZERO,
+        }
+    }
+
+    /// Notes who is close to the last agent that perceived.
+    #[inline(always)]
+    fn note_close(row: usize, out: &Writer<'_, R, D>, scratch: &Scratch<R, D>) {
+        if out.close.blocks > 0 && scratch.close_within > R::ZERO {
+            let blocks = out.close.blocks;
+            // SAFETY: rows of one sweep are written by it alone.
+            unsafe {
+                out.close.marks.part(row * blocks..(row + 1) * blocks).copy_from_slice(&scratch.close[..blocks]);
+                out.close.within.write(row, scratch.close_within);
+            }
+        }
+    }
+
+    /// Moves an agent as it wants to, as far as its body can, and writes its next state; its columns stand in the scratch.
+    #[inline(always)]
+    fn perform(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        wanted: Motion<R, D>,
+        room: R,
+        out: &Writer<'_, R, D>,
+        scratch: &mut Scratch<R, D>,
+    ) {
+        let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &mut scratch.body);
+        if !self.stages.plain && velocity != wanted.velocity {
+            self.law.performed(&mut scratch.own, velocity);
+        }
+        // a move that is shorter than the free space around it meets nothing
+        let moved = (place - view.now.position(row)).length_squared();
+        // SAFETY: rows of one sweep are written by it alone.
+        unsafe {
+            out.clear.write(row, room > R::ZERO && moved < room * room);
+            out.write(row, place, velocity);
+            out.write_state(row, &self.stages.columns, &scratch.own);
+            out.write_state(row, &self.stages.body_columns, &scratch.body);
+        }
     }
 
     #[inline(always)]
@@ -1117,63 +1214,41 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         scratch: &mut Scratch<R, D>,
     ) {
         for row in rows {
-            if !self.stages.mine(view.now.id[row]) {
+            if !self.decides(view, row, out) {
                 continue;
             }
-            if view.dead(view.now, row) {
-                // SAFETY: rows of one sweep are written by it alone.
-                unsafe { out.write(row, view.now.position(row), view.now.velocity(row)) };
-                continue;
-            }
-            let id = view.now.id[row] as usize;
-            let memory = if self.remembers() {
-                // SAFETY: an agent's memory is touched by the sweep of its row alone.
-                unsafe { out.memory.part(id..id + 1) }.first_mut()
-            } else {
-                None
-            };
+            // SAFETY: rows of one sweep are its own.
+            let memory = unsafe { self.memory(view, row, out) };
             let wanted = self.decide(view, row, scratch, memory, None);
-            let mut body = core::mem::take(&mut scratch.body);
-            let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &mut body);
-            if !self.stages.plain && velocity != wanted.velocity {
-                self.law.performed(&mut scratch.own, velocity);
-            }
-            // a move that is shorter than the free space around it meets nothing
-            let room = match (&self.stages.sensing, self.stages.obstacle_reach) {
-                (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() => reach - self.stages.radius,
-                _ => R::ZERO,
-            };
-            let moved = (place - view.now.position(row)).length_squared();
-            // SAFETY: as above.
-            unsafe {
-                if out.close.blocks > 0 && scratch.close_within > R::ZERO {
-                    let blocks = out.close.blocks;
-                    out.close.marks.part(row * blocks..(row + 1) * blocks).copy_from_slice(&scratch.close[..blocks]);
-                    out.close.within.write(row, scratch.close_within);
-                }
-                out.clear.write(row, room > R::ZERO && moved < room * room);
-                out.write(row, place, velocity);
-                out.write_state(row, &self.stages.columns, &scratch.own);
-                out.write_state(row, &self.stages.body_columns, &body);
-            }
-            scratch.body = body;
+            Self::note_close(row, out, scratch);
+            self.perform(view, row, wanted, self.room(scratch), out, scratch);
         }
     }
 }
 
-struct SweepListed<'a, 'b, M, R, const D: usize> {
-    kernel: &'a Listed<M, R, D>,
-    view: &'a View<'b, R, D>,
-    rows: Range<usize>,
-    out: &'a Writer<'b, R, D>,
-    scratch: &'a mut Scratch<R, D>,
+/// What is done with what an agent perceives. (A closure would not be compiled for the lanes.)
+trait Perceiving<R: Scalar, const D: usize> {
+    type Found;
+    fn by(self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Self::Found;
 }
 
-impl<R: Scalar, const D: usize, M: Model<R, D>> Task<R> for SweepListed<'_, '_, M, R, D> {
-    type Output = ();
+/// The law decides.
+struct Deciding<'a, M>(&'a M);
+impl<R: Scalar, const D: usize, M: Model<R, D>> Perceiving<R, D> for Deciding<'_, M> {
+    type Found = Motion<R, D>;
     #[inline(always)]
-    fn run<L: Lanes<R>>(self) {
-        self.kernel.sweep_rows(self.view, self.rows, self.out, self.scratch);
+    fn by(self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D> {
+        self.0.decide(me, seen, draws)
+    }
+}
+
+/// The law finds out what the agent wishes.
+struct Wishing<'a, M>(&'a M);
+impl<R: Scalar, const D: usize, M: Abreast<R, D>> Perceiving<R, D> for Wishing<'_, M> {
+    type Found = M::Wish;
+    #[inline(always)]
+    fn by(self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> M::Wish {
+        self.0.wish(me, seen, draws)
     }
 }
 
@@ -1188,11 +1263,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         self.law.complete(start);
     }
     fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>) {
-        if M::MARKS {
-            with_lanes(level(), SweepListed { kernel: self, view, rows, out, scratch });
-        } else {
-            self.sweep_rows(view, rows, out, scratch);
-        }
+        self.sweep_rows(view, rows, out, scratch);
     }
     fn one(
         &self,
@@ -1222,6 +1293,97 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         let indirect = self.stages.detect(view, row, scratch, None);
         self.stages.select(view, row, scratch, indirect);
         scratch.sets.iter().filter(|&&bits| bits != 0).count()
+    }
+}
+
+/// A law whose agents look each for itself and move abreast.
+pub(crate) struct SideBySide<M, R, const D: usize> {
+    pub(crate) listed: Listed<Single<M>, R, D>,
+}
+
+struct SweepSideBySide<'a, 'b, M, R, const D: usize> {
+    kernel: &'a SideBySide<M, R, D>,
+    view: &'a View<'b, R, D>,
+    rows: Range<usize>,
+    out: &'a Writer<'b, R, D>,
+    scratch: &'a mut Scratch<R, D>,
+}
+
+impl<R: Scalar, const D: usize, M: Abreast<R, D>> Task<R> for SweepSideBySide<'_, '_, M, R, D> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) {
+        let Self { kernel, view, rows, out, scratch } = self;
+        let listed = &kernel.listed;
+        let mut agents = core::mem::replace(&mut scratch.agents, Agents::new(0));
+        agents.own.resize(listed.stages.columns.len(), [R::ZERO; WIDEST]);
+        let mut wishes = [M::Wish::default(); WIDEST];
+        let (mut places, mut rooms, mut count) = ([0; WIDEST], [R::ZERO; WIDEST], 0);
+        for row in rows.clone() {
+            if listed.decides(view, row, out) {
+                // SAFETY: rows of one sweep are its own.
+                let memory = unsafe { listed.memory(view, row, out) };
+                wishes[count] = listed.perceive(view, row, scratch, memory, None, Wishing(&listed.law.0));
+                Listed::<Single<M>, R, D>::note_close(row, out, scratch);
+                agents.put(count, view.now.velocity(row), &scratch.own);
+                (places[count], rooms[count]) = (row, listed.room(scratch));
+                count += 1;
+            }
+            if count < WIDEST && row + 1 < rows.end {
+                continue;
+            }
+            for first in (0..count).step_by(L::WIDTH) {
+                listed.law.0.conclude::<L>(first, &wishes, &mut agents);
+            }
+            for k in 0..count {
+                let row = places[k];
+                listed.stages.load(view.now, row, scratch);
+                let motion = agents.take(k, &mut scratch.own);
+                listed.perform(view, row, listed.stages.wanted(view, row, motion), rooms[k], out, scratch);
+            }
+            count = 0;
+        }
+        scratch.agents = agents;
+    }
+}
+
+impl<R: Scalar, const D: usize, M: Abreast<R, D>> Kernel<R, D> for SideBySide<M, R, D> {
+    fn stages(&self) -> &Stages<R, D> {
+        self.listed.stages()
+    }
+    fn streams(&self) -> Option<bool> {
+        None
+    }
+    fn complete(&self, start: &mut Start<'_, R, D>) {
+        self.listed.complete(start);
+    }
+    fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>) {
+        with_lanes(level(), SweepSideBySide { kernel: self, view, rows, out, scratch });
+    }
+    fn one(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+    ) -> Motion<R, D> {
+        self.listed.one(view, row, scratch, memory)
+    }
+    fn explained(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+        trace: &mut Trace<R, D>,
+    ) -> Motion<R, D> {
+        self.listed.explained(view, row, scratch, memory, trace)
+    }
+    fn performed(&self, own: &mut [R], velocity: Vector<R, D>) {
+        self.listed.performed(own, velocity);
+    }
+    fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
+        self.listed.neighbours(view, row, scratch)
     }
 }
 

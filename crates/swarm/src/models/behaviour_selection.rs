@@ -11,6 +11,7 @@ use crate::parameters::Scalar;
 use crate::selection::{NamedSet, Perception};
 use crate::sensing::cos_half;
 use crate::{choice, parameters};
+use space::angles::{arc_tangent, sine_cosine, wrapped};
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
 use space::{Column, ColumnKind, Real, Vector};
 
@@ -643,13 +644,13 @@ impl<R: Scalar> BehaviourSelection<R> {
     }
 
     #[inline(always)]
-    fn decided(
+    fn wished(
         &self,
         me: &mut Me<'_, R, 3>,
         seen: &Percepts<'_, R, 3>,
         sight: &impl Sight,
         draws: &Draws<'_>,
-    ) -> Motion<R, 3> {
+    ) -> Wish<R> {
         let (theta, phi) = (me.own[THETA], me.own[PHI]);
         let mut counts = [0u32; 3];
         for block in 0..seen.marks.len() {
@@ -697,41 +698,71 @@ impl<R: Scalar> BehaviourSelection<R> {
             }
             Behaviour::Search => Vector::ZERO,
         };
-        let limits = [self.horizontal_turning_rate, self.vertical_turning_rate].map(|r| r.radians() * self.time_step);
-        let (mut turn, mut rise) = (R::ZERO, R::ZERO);
+        let mut wish = Wish { direction: wanted, ..Wish::default() };
         if let Behaviour::Search = behaviour {
-            turn = limits[0] * draws.number("search_theta", 0.0, |s| 2.0 * s.uniform(1) - 1.0);
-            rise = limits[1] * draws.number("search_phi", 0.0, |s| 2.0 * s.uniform(2) - 1.0);
-        } else if wanted.length_squared() >= R::of(SHORT * SHORT) {
-            let (azimuth, elevation) = Self::angles_of(wanted, theta);
-            turn = (azimuth - theta).wrapped().clamped(-limits[0], limits[0]);
-            rise = (elevation - phi).clamped(-limits[1], limits[1]);
+            let limits = self.limits();
+            wish.turn[0] = limits[0] * draws.number("search_theta", 0.0, |s| 2.0 * s.uniform(1) - 1.0);
+            wish.turn[1] = limits[1] * draws.number("search_phi", 0.0, |s| 2.0 * s.uniform(2) - 1.0);
         }
         if me.trace.is_some() {
             self.tell(me, seen, sight, counts, from_obstacles, behaviour, drawn);
             me.note("wanted direction", wanted);
+            let [turn, rise] = self.turns::<R>(me.own[THETA], me.own[PHI], &wish.direction.0, &wish.turn);
             for (name, angle) in [("turn", turn), ("rise", rise)] {
                 me.value(name, angle, "rad");
             }
-            for (name, limit) in ["turn allowed", "rise allowed"].into_iter().zip(limits) {
+            for (name, limit) in ["turn allowed", "rise allowed"].into_iter().zip(self.limits()) {
                 me.value(name, limit, "rad");
             }
         }
-        let (theta, phi) = ((theta + turn).wrapped(), (phi + rise).clamped(-R::PI * R::HALF, R::PI * R::HALF));
-        (me.own[THETA], me.own[PHI], me.own[KIND]) = (theta, phi, R::of(f64::from(u8::from(b))));
+        me.own[KIND] = R::of(f64::from(u8::from(b)));
         let count = |count: u32| R::of(f64::from(count));
         (me.own[N_AVOID], me.own[N_ALIGN], me.own[N_ATTRACT]) = (count(counts[0]), count(counts[1]), count(counts[2]));
         (me.own[O_AVOID], me.own[BEHAVIOUR]) = (count(obstacles), count(behaviour as u32));
-        let velocity = Self::heading_of(theta, phi) * self.speed;
-        match self.position_update {
-            Update::New => Motion::new_velocity(velocity, self.time_step),
-            Update::Old => Motion::old_velocity(me.velocity, velocity, self.time_step),
-        }
+        wish
+    }
+
+    /// Largest turns in a step, rad: of the azimuth, of the elevation.
+    #[inline(always)]
+    fn limits(&self) -> [R; 2] {
+        [self.horizontal_turning_rate, self.vertical_turning_rate].map(|rate| rate.radians() * self.time_step)
+    }
+
+    /// The turns of azimuth and elevation (rad) towards a direction; those of the search where there is none.
+    #[inline(always)]
+    fn turns<L: Lanes<R>>(&self, theta: L, phi: L, direction: &[L; 3], search: &[L; 2]) -> [L; 2] {
+        let [x, y, z] = *direction;
+        let level = x * x + y * y;
+        let length = level + z * z;
+        let short = L::splat(R::of(SHORT * SHORT));
+        let upright = level.less(length * short);
+        let still = length.less(short);
+        let across = L::choose(upright, theta, arc_tangent::<R, L>(y, x));
+        let up = arc_tangent::<R, L>(z, level.square_root());
+        let [most_turn, most_rise] = self.limits().map(L::splat);
+        let turn = wrapped::<R, L>(across - theta).greater(-most_turn).lesser(most_turn);
+        let rise = (up - phi).greater(-most_rise).lesser(most_rise);
+        [L::choose(still, search[0], turn), L::choose(still, search[1], rise)]
     }
 }
 
-impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
-    const MARKS: bool = true;
+/// What an agent wishes.
+#[derive(Clone, Copy)]
+pub struct Wish<R> {
+    /// Where to, of any length; zero where nobody says.
+    direction: Vector<R, 3>,
+    /// Turns of azimuth and elevation in a search, rad; else zero.
+    turn: [R; 2],
+}
+
+impl<R: Real> Default for Wish<R> {
+    fn default() -> Self {
+        Self { direction: Vector::ZERO, turn: [R::ZERO; 2] }
+    }
+}
+
+impl<R: Scalar> Abreast<R, 3> for BehaviourSelection<R> {
+    type Wish = Wish<R>;
 
     fn sets(&self) -> Vec<NamedSet<R, 3>> {
         let [near, middle, far] = self.bounds();
@@ -766,13 +797,43 @@ impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
         }
     }
     #[inline(always)]
-    fn decide(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, draws: &Draws<'_>) -> Motion<R, 3> {
+    fn wish(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, draws: &Draws<'_>) -> Wish<R> {
         match self.view {
-            View::Cone => self.decided(me, seen, &Selected(seen.marks), draws),
+            View::Cone => self.wished(me, seen, &Selected(seen.marks), draws),
             View::Axes => {
                 let angles = (me.own[THETA], me.own[PHI]);
-                self.decided(me, seen, &ByAxes { law: self, seen, angles }, draws)
+                self.wished(me, seen, &ByAxes { law: self, seen, angles }, draws)
             }
+        }
+    }
+    #[inline(always)]
+    fn conclude<L: Lanes<R>>(&self, first: usize, wishes: &[Wish<R>; WIDEST], agents: &mut Agents<R, 3>) {
+        let mut wished = [[R::ZERO; WIDEST]; 5];
+        for l in 0..L::WIDTH {
+            let wish = &wishes[first + l];
+            let [x, y, z] = wish.direction.0;
+            for (column, number) in wished.iter_mut().zip([x, y, z, wish.turn[0], wish.turn[1]]) {
+                column[l] = number;
+            }
+        }
+        let [x, y, z, turn, rise] = wished.each_ref().map(|column| L::load(column));
+        let (theta, phi) = (L::load(&agents.own[THETA][first..]), L::load(&agents.own[PHI][first..]));
+        let [turn, rise] = self.turns::<L>(theta, phi, &[x, y, z], &[turn, rise]);
+        let pole = L::splat(R::PI * R::HALF);
+        let theta = wrapped::<R, L>(theta + turn);
+        let phi = (phi + rise).greater(-pole).lesser(pole);
+        theta.store(&mut agents.own[THETA][first..]);
+        phi.store(&mut agents.own[PHI][first..]);
+        let ((sine, cosine), (sine_up, cosine_up)) = (sine_cosine::<R, L>(theta), sine_cosine::<R, L>(phi));
+        let (speed, time) = (L::splat(self.speed), L::splat(self.time_step));
+        let new = [cosine_up * cosine * speed, cosine_up * sine * speed, sine_up * speed];
+        for a in 0..3 {
+            let moving = match self.position_update {
+                Update::New => new[a],
+                Update::Old => L::load(&agents.velocity[a][first..]),
+            };
+            (moving * time).store(&mut agents.displacement[a][first..]);
+            new[a].store(&mut agents.velocity[a][first..]);
         }
     }
 }
