@@ -320,6 +320,19 @@ pub struct Percepts<'a, R, const D: usize> {
     pub others: &'a Columns<R, D>,
     /// Column in `others` of each of the model's declared columns.
     pub columns: &'a [usize],
+    /// How laws that ask for marks may have to do with less; they use [`Self::at`] and [`Self::several`].
+    pub rough: Option<Rough<'a, R, D>>,
+}
+
+/// Percepts that are all rows of the state, in their order, and of which only squared distances are written down, roughly.
+#[derive(Clone, Copy)]
+pub struct Rough<'a, R, const D: usize> {
+    /// From where displacements are taken.
+    pub from: Vector<R, D>,
+    /// Squared distances, wrong by less than `margin` where percepts are in a set.
+    pub squared: &'a [f32],
+    /// See there.
+    pub margin: f32,
 }
 
 impl<R: Real, const D: usize> Percepts<'_, R, D> {
@@ -337,6 +350,31 @@ impl<R: Real, const D: usize> Percepts<'_, R, D> {
     #[inline(always)]
     pub fn offset(&self, k: usize) -> Vector<R, D> {
         Vector(core::array::from_fn(|a| self.offset[a][k]))
+    }
+    /// Displacement from me to percept `k`, and its square, whether written down or not.
+    #[inline(always)]
+    pub fn at(&self, k: usize) -> (Vector<R, D>, R) {
+        let Some(Rough { from, .. }) = self.rough else { return (self.offset(k), self.squared[k]) };
+        let mut offset = Vector::ZERO;
+        for a in 0..D {
+            offset.0[a] = self.others.position[a][k] - from.0[a];
+        }
+        (offset, dot::<R, R, D>(&offset.0, &offset.0))
+    }
+    /// The same for the percepts from number `first` on, one per lane. Room for a block of percepts is always there.
+    #[inline(always)]
+    pub fn several<L: Lanes<R>>(&self, first: usize) -> ([L; D], L) {
+        let mut offset = [L::splat(R::ZERO); D];
+        let Some(Rough { from, .. }) = self.rough else {
+            for a in 0..D {
+                offset[a] = L::load(&self.offset[a][first..]);
+            }
+            return (offset, L::load(&self.squared[first..]));
+        };
+        for a in 0..D {
+            offset[a] = L::load(&self.others.position[a][first..]) - L::splat(from.0[a]);
+        }
+        (offset, dot(&offset, &offset))
     }
     /// Distance of percept `k`.
     #[inline(always)]

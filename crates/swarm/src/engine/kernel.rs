@@ -1,8 +1,9 @@
 //! One group's way through the stages: chosen once, called once per block of agents.
 
+use crate::engine::coarse::Coarse;
 use crate::motion::{
     Abreast, Agents, Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Marks, Me, MeLanes, Model, Motion, NearItem,
-    NearObstacle, Other, Percepts, Single, Start, Stream, Summed, Trace, WIDEST, splat,
+    NearObstacle, Other, Percepts, Rough, Single, Start, Stream, Summed, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::Mobility;
@@ -38,6 +39,8 @@ pub(crate) struct View<'a, R, const D: usize> {
     pub(crate) others: &'a Columns<R, D>,
     /// Unit headings of `now`, where a streaming law uses them.
     pub(crate) heading: &'a [Vec<R>; D],
+    /// Places of `others` in single precision, where that is of use.
+    pub(crate) coarse: Option<&'a Coarse<D>>,
     pub(crate) index: Index<'a, R, D>,
     pub(crate) space: &'a Space<R, D>,
     pub(crate) obstacles: &'a Obstacles<R, D>,
@@ -166,6 +169,12 @@ pub(crate) struct Scratch<R, const D: usize> {
     close: Vec<u16>,
     /// Outer radius of that ring where all rows were marked in the last decision, else 0.
     close_within: R,
+    /// Whether the percepts are all rows, with displacements that are not written down; and then all rows.
+    rough: bool,
+    everyone: Vec<u32>,
+    /// Then, the squared distances in single precision, and how wrong they may be.
+    rough_squared: Lined<f32>,
+    margin: f32,
     chosen: Vec<bool>,
     order: Vec<u32>,
     selection: selection::Scratch<R, D>,
@@ -192,6 +201,10 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             marks: Vec::new(),
             close: Vec::new(),
             close_within: R::ZERO,
+            rough: false,
+            everyone: Vec::new(),
+            rough_squared: Lined::new(),
+            margin: 0.0,
             chosen: Vec::new(),
             order: Vec::new(),
             selection: selection::Scratch::default(),
@@ -380,6 +393,10 @@ pub(crate) trait Kernel<R: Scalar, const D: usize>: Send + Sync {
     fn stages(&self) -> &Stages<R, D>;
     /// Whether the law runs neighbour by neighbour in lanes, and then whether it wants headings.
     fn streams(&self) -> Option<bool>;
+    /// Whether the law has rows marked that are in its rings.
+    fn marks(&self) -> bool {
+        false
+    }
     /// Completes an initial state.
     fn complete(&self, start: &mut Start<'_, R, D>);
     /// Decides and moves this group's members among the rows.
@@ -662,7 +679,9 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         } else if !matches!(view.index, Index::Live(_)) {
             let segments = &everyone(view);
             scratch.close_within = rings.outer[0].root();
-            if view.space.is_periodic() {
+            if self.mark_coarse(view, row, heading, rings, scratch) {
+                scratch.rough = true;
+            } else if view.space.is_periodic() {
                 with_lanes(level(), Mark::<R, D, ALL> { view, row, heading, rings, segments, scratch });
             } else {
                 with_lanes(level(), Mark::<R, D, ALL_OPEN> { view, row, heading, rings, segments, scratch });
@@ -671,12 +690,40 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         scratch.segments = segments;
         if view.mortality.is_some() {
             for k in 0..scratch.found {
-                if view.dead(view.others, scratch.row[k] as usize) {
+                let row = if scratch.rough { k } else { scratch.row[k] as usize };
+                if view.dead(view.others, row) {
                     scratch.marks[k / BLOCK].iter_mut().for_each(|bits| *bits &= !(1 << (k % BLOCK)));
                 }
             }
         }
         !matches!(view.index, Index::Live(_))
+    }
+    /// Marks the members of rings in single precision; false where that cannot be told.
+    #[inline(always)]
+    fn mark_coarse(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        heading: Vector<R, D>,
+        rings: &Rings<R>,
+        scratch: &mut Scratch<R, D>,
+    ) -> bool {
+        let Some(coarse) = view.coarse else { return false };
+        let agents = view.others.len();
+        scratch.reserve(agents);
+        if scratch.everyone.len() < agents {
+            scratch.everyone.extend(scratch.everyone.len() as u32..agents as u32);
+            scratch.rough_squared.grow(agents.next_multiple_of(BLOCK));
+        }
+        let Scratch { rough_squared, marks, close, .. } = &mut *scratch;
+        let Some(task) = coarse.about(row, heading, rings, rough_squared, marks, close) else { return false };
+        let margin = task.margin;
+        if !with_lanes(level(), task) {
+            return false;
+        }
+        scratch.margin = margin;
+        scratch.found = agents;
+        true
     }
     /// The limits and errors of ideal sensing. Returns whether others' velocities were changed too.
     #[inline(never)]
@@ -1066,6 +1113,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         // an explanation goes the long way, over lists, which comes to the same
         let quick = M::MARKS && trace.is_none();
         scratch.close_within = R::ZERO;
+        scratch.rough = false;
         let heading = view.now.velocity(row).unit();
         let marked = match &stages.rings {
             Some(rings) if quick => stages.mark(view, row, heading, rings, scratch),
@@ -1092,11 +1140,16 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         let seen = Percepts {
             offset: firsts(&scratch.offset, count),
             squared: &scratch.squared[..count],
-            row: &scratch.row[..scratch.found],
+            row: if scratch.rough { &scratch.everyone[..scratch.found] } else { &scratch.row[..scratch.found] },
             sets: if marked { &[] } else { &scratch.sets },
             marks: &scratch.marks[..scratch.found.div_ceil(BLOCK)],
             others: if indirect { &scratch.sensed } else { view.others },
             columns: &stages.columns,
+            rough: if scratch.rough {
+                Some(Rough { from: position, squared: &scratch.rough_squared, margin: scratch.margin })
+            } else {
+                None
+            },
         };
         let draws = Draws::new(view.seed, view.step, view.now.id[row], view.injected);
         let mut me = Me {
@@ -1318,6 +1371,13 @@ impl<R: Scalar, const D: usize, M: Abreast<R, D>> Task<R> for SweepSideBySide<'_
         let mut agents = core::mem::replace(&mut scratch.agents, Agents::new(0));
         agents.own.resize(listed.stages.columns.len(), [R::ZERO; WIDEST]);
         let mut wishes = [M::Wish::default(); WIDEST];
+        // rows that follow each other, moved exactly as wished
+        let stages = &listed.stages;
+        let together = stages.plain
+            && stages.noise.computation == R::ZERO
+            && stages.body_columns.is_empty()
+            && view.mortality.is_none()
+            && view.bodies.len() == 1;
         let (mut places, mut rooms, mut count) = ([0; WIDEST], [R::ZERO; WIDEST], 0);
         for row in rows.clone() {
             if listed.decides(view, row, out) {
@@ -1335,15 +1395,62 @@ impl<R: Scalar, const D: usize, M: Abreast<R, D>> Task<R> for SweepSideBySide<'_
             for first in (0..count).step_by(L::WIDTH) {
                 listed.law.0.conclude::<L>(first, &wishes, &mut agents);
             }
-            for k in 0..count {
-                let row = places[k];
-                listed.stages.load(view.now, row, scratch);
-                let motion = agents.take(k, &mut scratch.own);
-                listed.perform(view, row, listed.stages.wanted(view, row, motion), rooms[k], out, scratch);
+            if !(together && kernel.move_together::<L>(view, places[0], count, &agents, &rooms, out)) {
+                for k in 0..count {
+                    let row = places[k];
+                    listed.stages.load(view.now, row, scratch);
+                    let motion = agents.take(k, &mut scratch.own);
+                    listed.perform(view, row, listed.stages.wanted(view, row, motion), rooms[k], out, scratch);
+                }
             }
             count = 0;
         }
         scratch.agents = agents;
+    }
+}
+
+impl<R: Scalar, const D: usize, M: Abreast<R, D>> SideBySide<M, R, D> {
+    /// Moves consecutive rows and writes their next state; false where they cannot be moved together: they are then to be
+    /// written one by one.
+    #[inline(always)]
+    fn move_together<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        count: usize,
+        agents: &Agents<R, D>,
+        rooms: &[R; WIDEST],
+        out: &Writer<'_, R, D>,
+    ) -> bool {
+        let zero = L::splat(R::ZERO);
+        for first in (0..count).step_by(L::WIDTH) {
+            let (mut velocity, mut displacement) = ([[R::ZERO; WIDEST]; D], [[R::ZERO; WIDEST]; D]);
+            let mut moved = zero;
+            for a in 0..D {
+                let step = L::load(&agents.displacement[a][first..]);
+                step.store(&mut displacement[a]);
+                L::load(&agents.velocity[a][first..]).store(&mut velocity[a]);
+                let from = L::load(&view.now.position[a][row + first..]);
+                let way = (from + step) - from;
+                moved = if a == 0 { way * way } else { moved + way * way };
+            }
+            let some = (count - first).min(L::WIDTH);
+            if !perform_together::<R, L, D>(view, row + first, some, &velocity, &displacement, out) {
+                return false;
+            }
+            // a move that is shorter than the free space around it meets nothing
+            let room = L::load(&rooms[first..]);
+            let clear = zero.less(room).and(moved.less(room * room)).bits();
+            for k in 0..some {
+                // SAFETY: rows of one sweep are written by it alone.
+                unsafe { out.clear.write(row + first + k, clear >> k & 1 == 1) };
+            }
+        }
+        for (&column, own) in self.listed.stages.columns.iter().zip(&agents.own) {
+            // SAFETY: as above.
+            unsafe { out.state[column].part(row..row + count).copy_from_slice(&own[..count]) };
+        }
+        true
     }
 }
 
@@ -1353,6 +1460,9 @@ impl<R: Scalar, const D: usize, M: Abreast<R, D>> Kernel<R, D> for SideBySide<M,
     }
     fn streams(&self) -> Option<bool> {
         None
+    }
+    fn marks(&self) -> bool {
+        self.listed.stages.rings.is_some()
     }
     fn complete(&self, start: &mut Start<'_, R, D>) {
         self.listed.complete(start);
@@ -1550,25 +1660,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             // SAFETY: rows of one sweep are written by it alone.
             unsafe { out.write_state(row + k, &stages.columns, &scratch.own) };
         }
-        let zero = L::splat(R::ZERO);
-        let mut fine = L::Mask::all_of(true);
-        let mut place = [zero; D];
-        for a in 0..D {
-            place[a] = L::load(&view.now.position[a][row..]) + L::load(&displacement[a]);
-            fine = match view.space.edges[a] {
-                Edge::Periodic(length) => fine.and(zero.less_equal(place[a])).and(place[a].less(L::splat(length))),
-                _ => fine.and(finite_lanes::<R, L>(place[a])),
-            };
-            let moving = L::load(&velocity[a]);
-            fine = fine.and(finite_lanes::<R, L>(moving));
-        }
-        if fine.bits() & mask_of(count) == mask_of(count) {
-            for a in 0..D {
-                let mut to = [R::ZERO; WIDEST];
-                place[a].store(&mut to);
-                // SAFETY: as above.
-                unsafe { out.write_block(a, row, &to[..count], &velocity[a][..count]) };
-            }
+        if perform_together::<R, L, D>(view, row, count, &velocity, &displacement, out) {
             return;
         }
         for k in 0..count {
@@ -1644,6 +1736,41 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         let motion = self.law().finish(&mut me, sums, &draws);
         stages.wanted(view, row, motion)
     }
+}
+
+/// Moves consecutive rows, fewer than there are lanes or as many, whose motions are performed exactly: the same numbers as
+/// [`Stages::perform`], side by side. False, and nothing written, where one of them is not finite or leaves a periodic space.
+#[inline(always)]
+fn perform_together<R: Scalar, L: Lanes<R>, const D: usize>(
+    view: &View<'_, R, D>,
+    row: usize,
+    count: usize,
+    velocity: &[[R; WIDEST]; D],
+    displacement: &[[R; WIDEST]; D],
+    out: &Writer<'_, R, D>,
+) -> bool {
+    let zero = L::splat(R::ZERO);
+    let mut fine = L::Mask::all_of(true);
+    let mut place = [zero; D];
+    for a in 0..D {
+        place[a] = L::load(&view.now.position[a][row..]) + L::load(&displacement[a]);
+        fine = match view.space.edges[a] {
+            Edge::Periodic(length) => fine.and(zero.less_equal(place[a])).and(place[a].less(L::splat(length))),
+            _ => fine.and(finite_lanes::<R, L>(place[a])),
+        };
+        let moving = L::load(&velocity[a]);
+        fine = fine.and(finite_lanes::<R, L>(moving));
+    }
+    if fine.bits() & mask_of(count) == mask_of(count) {
+        for a in 0..D {
+            let mut to = [R::ZERO; WIDEST];
+            place[a].store(&mut to);
+            // SAFETY: rows of one sweep are written by it alone.
+            unsafe { out.write_block(a, row, &to[..count], &velocity[a][..count]) };
+        }
+        return true;
+    }
+    false
 }
 
 /// A block of consecutive agents, one per lane.

@@ -1,6 +1,7 @@
 //! The world and its engine: the only hot loop, the drivers, checkpoints.
 
 mod checkpoint;
+mod coarse;
 mod contacts;
 pub mod explain;
 mod kernel;

@@ -1,6 +1,7 @@
 //! The world: columns, index, obstacles, resources, groups.
 
 use crate::detection::readings::ErrorCount;
+use crate::engine::coarse::Coarse;
 use crate::engine::kernel::{Close, Index, Kernel, Scratch, Sensing, Stages, View};
 use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
 use crate::models::{self, Catalogue, Models};
@@ -76,6 +77,8 @@ pub struct World<R: Scalar, const D: usize> {
     pub(crate) next: Columns<R, D>,
     pub(crate) heading: [Vec<R>; D],
     pub(crate) headings: bool,
+    /// Places in single precision, where agents mark rings among everyone and all read the newest state.
+    pub(crate) coarse: Option<Coarse<D>>,
     pub(crate) reach: Option<Reach<R>>,
     pub(crate) grid: Option<Grid<R, D>>,
     pub(crate) live: Option<LiveGrid<R, D>>,
@@ -297,6 +300,10 @@ where
             Sensing::Ideal(_) => None,
         });
         let memory = associated.map_or_else(Vec::new, |gate| vec![Memory::new(gate); agents]);
+        let rough = size_of::<R>() > size_of::<f32>()
+            && reach.is_none()
+            && !(sequential || delayed || plan.space.is_periodic())
+            && groups.iter().any(|g| g.kernel.marks());
         let mut world = Self {
             space: plan.space,
             obstacles,
@@ -309,6 +316,7 @@ where
             heading: core::array::from_fn(|_| Vec::new()),
             // one after the other, headings would be out of date as soon as somebody has turned
             headings: headings && !sequential,
+            coarse: rough.then(Coarse::new),
             reach,
             grid: None,
             live: None,
@@ -460,6 +468,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
         if self.headings {
             self.update_headings();
         }
+        if let Some(coarse) = &mut self.coarse {
+            coarse.update(&self.now);
+        }
     }
     /// Puts rows back in the order of ids, for when cells cannot serve any more.
     fn unsort(&mut self) {
@@ -519,6 +530,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
             now: &self.now,
             others: &self.now,
             heading: &self.heading,
+            coarse: self.coarse.as_ref(),
             index: match (&self.grid, &self.live) {
                 (Some(grid), _) => Index::Sorted(grid),
                 (None, Some(live)) => Index::Live(live),

@@ -266,7 +266,7 @@ impl<R: Scalar> Sight for ByAxes<'_, R> {
             for l in 0..BLOCK {
                 let hidden = hides
                     && *members >> l & 1 == 1
-                    && !self.law.sees_by_axes(self.angles, self.seen.offset(block * BLOCK + l));
+                    && !self.law.sees_by_axes(self.angles, self.seen.at(block * BLOCK + l).0);
                 *members &= !(u16::from(hidden) << l);
             }
         }
@@ -300,7 +300,8 @@ struct Directions;
 impl<R: Scalar> Term<R> for Directions {
     #[inline(always)]
     fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3> {
-        Vector(towards(&seen.offset(k).0, seen.squared[k]))
+        let (offset, squared) = seen.at(k);
+        Vector(towards(&offset.0, squared))
     }
     #[inline(always)]
     fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
@@ -344,8 +345,6 @@ impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
     fn run<L: Lanes<R>>(self) -> Vector<R, 3> {
         const ROOM: usize = 8 * BLOCK;
         let Self { seen, sight, set } = self;
-        let percepts = seen.marks.len() * BLOCK;
-        let columns = [seen.offset[0], seen.offset[1], seen.offset[2], seen.squared].map(|c| &c[..percepts]);
         // members side by side, whoever stands between them
         let mut members = [[R::ZERO; ROOM]; 4];
         let mut filled = 0;
@@ -354,8 +353,9 @@ impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
             let marks = u32::from(sight.marks(block)[set]);
             for part in (0..BLOCK).step_by(L::WIDTH) {
                 let bits = marks >> part & mask_of(L::WIDTH);
-                for (members, column) in members.iter_mut().zip(&columns) {
-                    L::load(&column[block * BLOCK + part..]).pack(bits, &mut members[filled..]);
+                let ([x, y, z], squared) = seen.several::<L>(block * BLOCK + part);
+                for (members, lanes) in members.iter_mut().zip([x, y, z, squared]) {
+                    lanes.pack(bits, &mut members[filled..]);
                 }
                 filled += bits.count_ones() as usize;
             }
@@ -409,7 +409,8 @@ fn add_directions<R: Scalar, L: Lanes<R>, const N: usize>(
 /// Whether percept `a` is nearer than `b`; ties go to the lower id.
 #[inline(always)]
 fn before<R: Scalar>(seen: &Percepts<'_, R, 3>, a: usize, b: usize) -> bool {
-    seen.squared[a] < seen.squared[b] || (seen.squared[a] == seen.squared[b] && seen.id(a) < seen.id(b))
+    let (near, far) = (seen.at(a).1, seen.at(b).1);
+    near < far || (near == far && seen.id(a) < seen.id(b))
 }
 
 /// The nearest `considered` of a set that has more members, in their order; none where that takes more than [`KEPT`] to tell.
@@ -417,58 +418,89 @@ struct Nearest<'a, R, S> {
     seen: &'a Percepts<'a, R, 3>,
     sight: &'a S,
     set: usize,
-    /// Number of members.
-    count: usize,
     considered: usize,
 }
+
+/// So many members of a set are listed before the farther ones are left out.
+const LISTED: usize = 256;
+const ROOM: usize = LISTED + 2 * BLOCK;
+
+/// Keeps those among so many that may be among the nearest, in their order. Behind them stands anything.
+#[inline(always)]
+fn nearer<R: Scalar, L: Lanes<R>>(
+    squares: &mut [R; ROOM],
+    rows: &mut [u32; ROOM],
+    count: usize,
+    considered: usize,
+) -> usize {
+    squares[count..count + BLOCK].fill(R::INFINITY);
+    // the nearest of each lane's share: so many of these as are considered are that near, so the nearest of all are no farther
+    let mut least = [L::splat(R::INFINITY); KEPT];
+    for first in (0..count).step_by(KEPT) {
+        for part in (0..KEPT).step_by(L::WIDTH) {
+            let least = &mut least[part / L::WIDTH];
+            *least = L::load(&squares[first + part..]).lesser(*least);
+        }
+    }
+    let bound = L::splat(in_order::<R, L>(&least, considered));
+    let mut near = 0;
+    for first in (0..count).step_by(L::WIDTH) {
+        let lanes = L::load(&squares[first..]);
+        let mut some = [0; WIDEST];
+        some[..L::WIDTH].copy_from_slice(&rows[first..first + L::WIDTH]);
+        let bits = lanes.less_equal(bound).bits() & mask_of(count - first);
+        // never beyond what was read
+        L::pack_listed(&some, bits, &mut rows[near..]);
+        lanes.pack(bits, &mut squares[near..]);
+        near += bits.count_ones() as usize;
+    }
+    near
+}
+
 impl<R: Scalar, S: Sight> Task<R> for Nearest<'_, R, S> {
     type Output = Option<[u32; KEPT]>;
     #[inline(always)]
     fn run<L: Lanes<R>>(self) -> Option<[u32; KEPT]> {
-        let Self { seen, sight, set, count, considered } = self;
-        let squared = &seen.squared[..seen.marks.len() * BLOCK];
-        // the nearest of each lane's share of the set: so many of these as are considered are that near, so the nearest of
-        // the whole set are no farther
-        let mut least = [L::splat(R::INFINITY); KEPT];
-        let few = count <= KEPT;
-        for block in 0..if few { 0 } else { seen.marks.len() } {
-            let marks = u32::from(sight.marks(block)[set]);
-            for part in (0..BLOCK).step_by(L::WIDTH) {
-                let least = &mut least[part / L::WIDTH];
-                let nearer = L::load(&squared[block * BLOCK + part..]).lesser(*least);
-                *least = L::choose(L::Mask::from_bits(marks >> part), nearer, *least);
-            }
-        }
-        let bound = if few { R::INFINITY } else { in_order::<R, L>(&least, considered) };
-        // a list of those that near, without branches
-        const ROOM: usize = 2 * KEPT;
-        let mut list = [0; ROOM + BLOCK];
-        let mut listed = 0;
+        let Self { seen, sight, set, considered } = self;
+        // the members, whoever stands between them
+        let (mut squares, mut rows) = ([R::INFINITY; ROOM], [0; ROOM]);
+        let mut count = 0;
         for block in 0..seen.marks.len() {
             let marks = u32::from(sight.marks(block)[set]);
+            if marks == 0 {
+                continue;
+            }
+            if count > LISTED {
+                count = nearer::<R, L>(&mut squares, &mut rows, count, considered);
+                if count > LISTED {
+                    return None;
+                }
+            }
             for part in (0..BLOCK).step_by(L::WIDTH) {
+                let bits = marks >> part & mask_of(L::WIDTH);
                 let first = block * BLOCK + part;
-                let near = L::load(&squared[first..]).less_equal(L::splat(bound)).bits() & marks >> part;
-                L::pack_numbers(first as u32, near, &mut list[listed.min(ROOM)..]);
-                listed += near.count_ones() as usize;
+                seen.several::<L>(first).1.pack(bits, &mut squares[count..]);
+                L::pack_numbers(first as u32, bits, &mut rows[count..]);
+                count += bits.count_ones() as usize;
             }
         }
-        if listed > KEPT {
+        if count > KEPT {
+            count = nearer::<R, L>(&mut squares, &mut rows, count, considered);
+        }
+        if count > KEPT {
             return None;
         }
-        let mut each = [R::INFINITY; KEPT];
-        for n in 0..listed {
-            each[n] = squared[list[n] as usize];
-        }
+        squares[count..count + BLOCK].fill(R::INFINITY);
+        let mut least = [L::splat(R::INFINITY); KEPT];
         for part in (0..KEPT).step_by(L::WIDTH) {
-            least[part / L::WIDTH] = L::load(&each[part..]);
+            least[part / L::WIDTH] = L::load(&squares[part..]);
         }
         let bound = in_order::<R, L>(&least, considered);
         let mut kept = [0; KEPT];
         let mut filled = 0;
-        for n in 0..listed {
-            kept[filled % KEPT] = list[n];
-            filled += usize::from(each[n] <= bound);
+        for n in 0..count {
+            kept[filled % KEPT] = rows[n];
+            filled += usize::from(squares[n] <= bound);
         }
         (filled == considered).then_some(kept)
     }
@@ -481,19 +513,94 @@ fn in_order<R: Scalar, L: Lanes<R>>(numbers: &[L; KEPT], count: usize) -> R {
     for part in (0..KEPT).step_by(L::WIDTH) {
         numbers[part / L::WIDTH].store(&mut each[part..]);
     }
-    let mut bound = R::INFINITY;
+    // how many of them each does not fall short of
+    let (one, enough) = (L::splat(R::ONE), L::splat(R::count(count)));
+    let mut ranks = [L::splat(R::ZERO); KEPT];
     for number in each {
-        let mut rank = 0;
+        let number = L::splat(number);
         for part in 0..KEPT / L::WIDTH {
-            rank += numbers[part].less_equal(L::splat(number)).bits().count_ones();
+            ranks[part] = ranks[part].add_where(number.less_equal(numbers[part]), one);
         }
-        let better = rank as usize >= count && number < bound;
-        bound = if better { number } else { bound };
     }
-    bound
+    let mut bound = L::splat(R::INFINITY);
+    for part in 0..KEPT / L::WIDTH {
+        bound = L::choose(enough.less_equal(ranks[part]), bound.lesser(numbers[part]), bound);
+    }
+    bound.store(&mut each);
+    let mut least = each[0];
+    for lane in 1..L::WIDTH {
+        least = least.least(each[lane]);
+    }
+    least
+}
+
+/// Some members of a set, all of the nearest `considered` among them, by what is roughly known of their distances; none where
+/// that are more than [`KEPT`]. The answer: their numbers, and how many they are.
+struct NearestRoughly<'a, S> {
+    squared: &'a [f32],
+    margin: f32,
+    blocks: usize,
+    sight: &'a S,
+    set: usize,
+    considered: usize,
+}
+
+impl<S: Sight> Task<f32> for NearestRoughly<'_, S> {
+    type Output = Option<([u32; KEPT], usize)>;
+    #[inline(always)]
+    fn run<L: Lanes<f32>>(self) -> Option<([u32; KEPT], usize)> {
+        let Self { squared, margin, blocks, sight, set, considered } = self;
+        let squared = &squared[..blocks * BLOCK];
+        let mut least = [L::splat(f32::INFINITY); KEPT];
+        for block in 0..blocks {
+            let marks = u32::from(sight.marks(block)[set]);
+            for part in (0..BLOCK).step_by(L::WIDTH) {
+                let least = &mut least[part / L::WIDTH];
+                let nearer = L::load(&squared[block * BLOCK + part..]).lesser(*least);
+                *least = L::choose(L::Mask::from_bits(marks >> part), nearer, *least);
+            }
+        }
+        // so many are that near, each of them wrong by the margin at most
+        let bound = L::splat(in_order::<f32, L>(&least, considered) + 2.0 * margin);
+        let mut list = [0; 2 * KEPT];
+        let mut listed = 0;
+        for block in 0..blocks {
+            let marks = u32::from(sight.marks(block)[set]);
+            for part in (0..BLOCK).step_by(L::WIDTH) {
+                let first = block * BLOCK + part;
+                let near = L::load(&squared[first..]).less_equal(bound).bits() & marks >> part;
+                L::pack_numbers(first as u32, near, &mut list[listed.min(KEPT)..]);
+                listed += near.count_ones() as usize;
+            }
+        }
+        let mut kept = [0; KEPT];
+        kept.copy_from_slice(&list[..KEPT]);
+        (listed <= KEPT).then_some((kept, listed))
+    }
 }
 
 impl<R: Scalar> BehaviourSelection<R> {
+    /// The nearest `considered` of so many percepts in their order, as bits; ties go to the first.
+    #[inline(always)]
+    fn nearest_of(seen: &Percepts<'_, R, 3>, listed: &[u32], considered: usize) -> u32 {
+        let mut left = mask_of(listed.len());
+        if listed.len() > considered {
+            let mut squares = [R::ZERO; KEPT];
+            for (squared, &k) in squares.iter_mut().zip(listed) {
+                *squared = seen.at(k as usize).1;
+            }
+            for _ in considered..listed.len() {
+                let (mut farthest, mut far) = (0, -R::ONE);
+                for l in 0..listed.len() {
+                    let farther = left >> l & 1 == 1 && squares[l] >= far;
+                    farthest = if farther { l } else { farthest };
+                    far = if farther { squares[l] } else { far };
+                }
+                left &= !(1 << farthest);
+            }
+        }
+        left
+    }
     /// Bounds of the zones, from centre to centre.
     #[inline(always)]
     fn bounds(&self) -> [R; 3] {
@@ -580,7 +687,21 @@ impl<R: Scalar> BehaviourSelection<R> {
         }
         let mut sum = Vector::ZERO;
         if considered <= KEPT
-            && let Some(kept) = with_lanes(level(), Nearest { seen, sight, set, count, considered })
+            && let Some(Rough { squared, margin, .. }) = seen.rough
+        {
+            let blocks = seen.marks.len();
+            let roughly = NearestRoughly { squared, margin, blocks, sight, set, considered };
+            if let Some((kept, listed)) = with_lanes::<f32, _>(level(), roughly) {
+                let mut left = Self::nearest_of(seen, &kept[..listed], considered);
+                while left != 0 {
+                    sum += T::of(seen, kept[left.trailing_zeros() as usize] as usize);
+                    left &= left - 1;
+                }
+                return sum;
+            }
+        }
+        if considered <= KEPT
+            && let Some(kept) = with_lanes(level(), Nearest { seen, sight, set, considered })
         {
             for &k in &kept[..considered] {
                 sum += T::of(seen, k as usize);
