@@ -300,8 +300,8 @@ impl<R, const D: usize> Default for Trace<R, D> {
 /// So many percepts stand in a block.
 pub const BLOCK: usize = 16;
 
-/// The named sets of a block of percepts: bit `l` of number `s` is set where percept `l` of the block is in set `s`.
-pub type Marks = [u16; RINGS];
+/// The named sets by blocks of percepts: bit `l` of number `b` of set `s` is set where percept `l` of block `b` is in it.
+pub type Marks<'a> = [&'a [u16]; RINGS];
 
 /// The detected members of one agent, as columns, with the named sets that selection put them in.
 #[derive(Clone, Copy)]
@@ -315,7 +315,7 @@ pub struct Percepts<'a, R, const D: usize> {
     /// Bit `s` is set for members of named set `s`. Empty where a law asks for marks.
     pub sets: &'a [u32],
     /// The named sets by blocks of percepts, for laws that ask for marks.
-    pub marks: &'a [Marks],
+    pub marks: Marks<'a>,
     /// Where velocities and declared columns of the percepts stand: the state itself, or what was sensed of it.
     pub others: &'a Columns<R, D>,
     /// Column in `others` of each of the model's declared columns.
@@ -350,6 +350,11 @@ impl<R: Real, const D: usize> Percepts<'_, R, D> {
     #[inline(always)]
     pub fn offset(&self, k: usize) -> Vector<R, D> {
         Vector(core::array::from_fn(|a| self.offset[a][k]))
+    }
+    /// Number of blocks of marks.
+    #[inline(always)]
+    pub fn blocks(&self) -> usize {
+        self.marks[0].len()
     }
     /// Displacement from me to percept `k`, and its square, whether written down or not.
     #[inline(always)]

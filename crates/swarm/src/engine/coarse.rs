@@ -7,7 +7,7 @@
 //! to be on. An agent for which somebody is nearer to a bound looks again, at all of them, in full precision.
 
 use crate::engine::kernel::mask_of;
-use crate::motion::{BLOCK, Marks, dot};
+use crate::motion::{BLOCK, dot};
 use crate::parameters::Scalar;
 use crate::selection::{RINGS, Rings};
 use space::lanes::{Lanes, Mask, Task};
@@ -51,7 +51,7 @@ impl<const D: usize> Coarse<D> {
         heading: Vector<R, D>,
         rings: &Rings<R>,
         squared: &'a mut [f32],
-        marks: &'a mut [Marks],
+        marks: [&'a mut [u16]; RINGS],
         close: &'a mut [u16],
     ) -> Option<MarkCoarse<'a, D>> {
         let outermost = rings.outer[RINGS - 1].to_f64();
@@ -103,7 +103,7 @@ pub(crate) struct MarkCoarse<'a, const D: usize> {
     /// How wrong squared distances up to the largest radius may be.
     pub(crate) margin: f32,
     squared: &'a mut [f32],
-    marks: &'a mut [Marks],
+    marks: [&'a mut [u16]; RINGS],
     close: &'a mut [u16],
 }
 
@@ -113,7 +113,8 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
     fn run<L: Lanes<f32>>(self) -> bool {
         let Self { position, count, row, squared, marks, close, .. } = self;
         let padded = count.next_multiple_of(BLOCK);
-        let (marks, close) = (&mut marks[..padded / BLOCK], &mut close[..padded / BLOCK]);
+        let marks = marks.map(|marks| &mut marks[..padded / BLOCK]);
+        let close = &mut close[..padded / BLOCK];
         let squares = &mut squared[..padded];
         let zero = L::splat(0.0);
         let (mut me, mut heading) = ([zero; D], [zero; D]);
@@ -156,7 +157,7 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
             let mut inside = 0;
             let mut blurred = !told & limited & perhaps[RINGS - 1];
             for s in 0..RINGS {
-                marks[block][s] = (nearer[s] & !inside & (seen | all_round[s])) as u16;
+                marks[s][block] = (nearer[s] & !inside & (seen | all_round[s])) as u16;
                 inside = nearer[s];
                 blurred |= nearer[s] ^ perhaps[s];
             }
@@ -165,8 +166,8 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
         }
         // all but oneself
         close[own_block] &= !(own_bit as u16);
-        for members in &mut marks[own_block] {
-            *members &= !(own_bit as u16);
+        for marks in marks {
+            marks[own_block] &= !(own_bit as u16);
         }
         unsure & mask_of(BLOCK) == 0
     }
@@ -178,8 +179,8 @@ mod tests {
     use space::lanes::{level, with_lanes};
 
     /// Marks in full precision, pair by pair.
-    fn exactly(now: &Columns<f64, 3>, row: usize, heading: Vector<f64, 3>, rings: &Rings<f64>) -> Vec<Marks> {
-        let mut marks = vec![[0; RINGS]; now.len().div_ceil(BLOCK)];
+    fn exactly(now: &Columns<f64, 3>, row: usize, heading: Vector<f64, 3>, rings: &Rings<f64>) -> [[u16; 3]; RINGS] {
+        let mut marks = [[0; 3]; RINGS];
         for other in (0..now.len()).filter(|&other| other != row) {
             let offset = now.position(other) - now.position(row);
             let squared = offset.length_squared();
@@ -187,7 +188,7 @@ mod tests {
             if let Some(s) = (0..RINGS).find(|&s| squared < rings.outer[s])
                 && (seen || !rings.within_cone[s])
             {
-                marks[other / BLOCK][s] |= 1 << (other % BLOCK);
+                marks[s][other / BLOCK] |= 1 << (other % BLOCK);
             }
         }
         marks
@@ -218,9 +219,10 @@ mod tests {
             let mut coarse = Coarse::new();
             coarse.update(&now);
             for row in 0..40 {
-                let (mut marks, mut close) = (vec![[0; RINGS]; 3], vec![0; 3]);
+                let (mut marks, mut close) = ([[0; 3]; RINGS], [0; 3]);
                 let mut squared = [0.0; 48];
-                let task = coarse.about(row, heading, &rings, &mut squared, &mut marks, &mut close);
+                let task =
+                    coarse.about(row, heading, &rings, &mut squared, marks.each_mut().map(|m| &mut m[..]), &mut close);
                 if task.is_some_and(|task| with_lanes(level(), task)) {
                     told += 1;
                     assert_eq!(marks, exactly(&now, row, heading, &rings), "trial {trial}, row {row}");

@@ -2,7 +2,7 @@
 
 use crate::engine::coarse::Coarse;
 use crate::motion::{
-    Abreast, Agents, Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Marks, Me, MeLanes, Model, Motion, NearItem,
+    Abreast, Agents, Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Me, MeLanes, Model, Motion, NearItem,
     NearObstacle, Other, Percepts, Rough, Single, Start, Stream, Summed, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
@@ -61,6 +61,18 @@ impl<R: Scalar, const D: usize> View<'_, R, D> {
     #[inline(always)]
     fn dead(&self, columns: &Columns<R, D>, row: usize) -> bool {
         self.mortality.is_some_and(|c| columns.state[c][row] <= R::ZERO)
+    }
+    /// The unit heading of a row of `now`.
+    #[inline(always)]
+    fn heading_of(&self, row: usize) -> Vector<R, D> {
+        if self.heading[0].is_empty() {
+            return self.now.velocity(row).unit();
+        }
+        let mut heading = Vector::ZERO;
+        for a in 0..D {
+            heading.0[a] = self.heading[a][row];
+        }
+        heading
     }
     pub(crate) fn body_radius(&self, id: u32) -> R {
         let group = self.bodies.partition_point(|&(first, _)| first <= id);
@@ -165,7 +177,7 @@ pub(crate) struct Scratch<R, const D: usize> {
     squared: Lined<R>,
     sets: Vec<u32>,
     /// The named sets by blocks of percepts, for laws that ask for marks, and whoever is inside the first ring.
-    marks: Vec<Marks>,
+    marks: [Vec<u16>; RINGS],
     close: Vec<u16>,
     /// Outer radius of that ring where all rows were marked in the last decision, else 0.
     close_within: R,
@@ -198,7 +210,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             offset: core::array::from_fn(|_| Lined::new()),
             squared: Lined::new(),
             sets: Vec::new(),
-            marks: Vec::new(),
+            marks: [const { Vec::new() }; RINGS],
             close: Vec::new(),
             close_within: R::ZERO,
             rough: false,
@@ -225,7 +237,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             self.row.resize(2 * needed, 0);
             self.offset.iter_mut().for_each(|o| o.grow(2 * needed));
             self.squared.grow(2 * needed);
-            self.marks.resize(2 * needed / BLOCK, [0; RINGS]);
+            self.marks.iter_mut().for_each(|marks| marks.resize(2 * needed / BLOCK, 0));
             self.close.resize(2 * needed / BLOCK, 0);
         }
     }
@@ -244,11 +256,11 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
     }
     /// Marks what selection put into sets.
     fn mark(&mut self) {
-        for (marks, block) in self.marks.iter_mut().zip(self.sets.chunks(BLOCK)) {
-            *marks = [0; RINGS];
-            for (l, &sets) in block.iter().enumerate() {
-                for (s, bits) in marks.iter_mut().enumerate() {
-                    *bits |= ((sets >> s & 1) as u16) << l;
+        for (b, block) in self.sets.chunks(BLOCK).enumerate() {
+            for (s, marks) in self.marks.iter_mut().enumerate() {
+                marks[b] = 0;
+                for (l, &sets) in block.iter().enumerate() {
+                    marks[b] |= ((sets >> s & 1) as u16) << l;
                 }
             }
         }
@@ -692,7 +704,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             for k in 0..scratch.found {
                 let row = if scratch.rough { k } else { scratch.row[k] as usize };
                 if view.dead(view.others, row) {
-                    scratch.marks[k / BLOCK].iter_mut().for_each(|bits| *bits &= !(1 << (k % BLOCK)));
+                    scratch.marks.iter_mut().for_each(|marks| marks[k / BLOCK] &= !(1 << (k % BLOCK)));
                 }
             }
         }
@@ -716,7 +728,10 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             scratch.rough_squared.grow(agents.next_multiple_of(BLOCK));
         }
         let Scratch { rough_squared, marks, close, .. } = &mut *scratch;
-        let Some(task) = coarse.about(row, heading, rings, rough_squared, marks, close) else { return false };
+        let Some(task) = coarse.about(row, heading, rings, rough_squared, marks.each_mut().map(|m| &mut m[..]), close)
+        else {
+            return false;
+        };
         let margin = task.margin;
         if !with_lanes(level(), task) {
             return false;
@@ -1019,7 +1034,8 @@ impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Mark<'_, '_, R, D, WA
             for a in 0..D {
                 position[a] = &view.others.position[a][..end + PADDING];
             }
-            let (rows, squares, marks, close) = (&mut rows[..], &mut squares[..], &mut marks[..], &mut close[..]);
+            let (rows, squares, close) = (&mut rows[..], &mut squares[..], &mut close[..]);
+            let marks = &mut marks.each_mut().map(|m| &mut m[..]);
             let offsets = &mut offsets.each_mut().map(|o| &mut o[..]);
             let shift: [L; D] = splat(segment.shift);
             while first < end {
@@ -1045,7 +1061,7 @@ impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Mark<'_, '_, R, D, WA
                 }
                 let mut inside = 0;
                 for s in 0..RINGS {
-                    marks[at / BLOCK][s] = (nearer[s] & !inside & (seen | all_round[s]) & others) as u16;
+                    marks[s][at / BLOCK] = (nearer[s] & !inside & (seen | all_round[s]) & others) as u16;
                     inside = nearer[s];
                 }
                 close[at / BLOCK] = (nearer[0] & others) as u16;
@@ -1114,7 +1130,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         let quick = M::MARKS && trace.is_none();
         scratch.close_within = R::ZERO;
         scratch.rough = false;
-        let heading = view.now.velocity(row).unit();
+        let heading = view.heading_of(row);
         let marked = match &stages.rings {
             Some(rings) if quick => stages.mark(view, row, heading, rings, scratch),
             _ => false,
@@ -1142,7 +1158,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             squared: &scratch.squared[..count],
             row: if scratch.rough { &scratch.everyone[..scratch.found] } else { &scratch.row[..scratch.found] },
             sets: if marked { &[] } else { &scratch.sets },
-            marks: &scratch.marks[..scratch.found.div_ceil(BLOCK)],
+            marks: firsts(&scratch.marks, scratch.found.div_ceil(BLOCK)),
             others: if indirect { &scratch.sensed } else { view.others },
             columns: &stages.columns,
             rough: if scratch.rough {
@@ -1724,11 +1740,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             id: view.now.id[row],
             position,
             velocity: view.now.velocity(row),
-            heading: if M::HEADINGS && !view.heading[0].is_empty() {
-                Vector(core::array::from_fn(|a| view.heading[a][row]))
-            } else {
-                view.now.velocity(row).unit()
-            },
+            heading: view.heading_of(row),
             own: &mut scratch.own,
             around: stages.around(view, row, position, &scratch.obstacles),
             trace: None,

@@ -250,7 +250,7 @@ where
                     && group.noise.execution_speed == R::ZERO,
             };
             let kernel = (model.build)(stages);
-            headings |= kernel.streams() == Some(true);
+            headings |= kernel.streams() == Some(true) || kernel.marks();
             groups.push(Group {
                 name: group.name.clone(),
                 model: group.model.clone(),

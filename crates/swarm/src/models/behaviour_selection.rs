@@ -239,16 +239,35 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
 
 /// Which percepts an agent sees.
 trait Sight {
-    /// Members of the named sets in a block of percepts.
-    fn marks(&self, block: usize) -> Marks;
+    /// Members of a named set in a block of percepts.
+    fn members(&self, set: usize, block: usize) -> u16;
+    /// Members of a named set in so many blocks.
+    #[inline(always)]
+    fn count(&self, set: usize, blocks: usize) -> u32 {
+        (0..blocks).map(|block| self.members(set, block).count_ones()).sum()
+    }
 }
 
 /// Sight as selection found it.
-struct Selected<'a>(&'a [Marks]);
+struct Selected<'a>(Marks<'a>);
 impl Sight for Selected<'_> {
     #[inline(always)]
-    fn marks(&self, block: usize) -> Marks {
-        self.0[block]
+    fn members(&self, set: usize, block: usize) -> u16 {
+        self.0[set][block]
+    }
+    #[inline(always)]
+    fn count(&self, set: usize, _: usize) -> u32 {
+        // four blocks at a time
+        let (fours, rest) = self.0[set].as_chunks::<4>();
+        let mut count = 0;
+        for &[a, b, c, d] in fours {
+            let [a, b, c, d] = [a, b, c, d].map(u64::from);
+            count += (a | b << 16 | c << 32 | d << 48).count_ones();
+        }
+        for block in rest {
+            count += block.count_ones();
+        }
+        count
     }
 }
 
@@ -259,18 +278,16 @@ struct ByAxes<'a, R> {
     angles: (R, R),
 }
 impl<R: Scalar> Sight for ByAxes<'_, R> {
-    fn marks(&self, block: usize) -> Marks {
-        let mut marks = self.seen.marks[block];
-        for (set, members) in marks.iter_mut().enumerate() {
-            let hides = set != AVOIDANCE || self.law.avoid_blind;
+    fn members(&self, set: usize, block: usize) -> u16 {
+        let mut members = self.seen.marks[set][block];
+        if set != AVOIDANCE || self.law.avoid_blind {
             for l in 0..BLOCK {
-                let hidden = hides
-                    && *members >> l & 1 == 1
+                let hidden = members >> l & 1 == 1
                     && !self.law.sees_by_axes(self.angles, self.seen.at(block * BLOCK + l).0);
-                *members &= !(u16::from(hidden) << l);
+                members &= !(u16::from(hidden) << l);
             }
         }
-        marks
+        members
     }
 }
 
@@ -322,8 +339,8 @@ fn towards<R: Scalar, L: Lanes<R>>(offset: &[L; 3], squared: L) -> [L; 3] {
 #[inline(always)]
 fn sum_in_order<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
     let mut sum = Vector::ZERO;
-    for block in 0..seen.marks.len() {
-        let mut members = sight.marks(block)[set];
+    for block in 0..seen.blocks() {
+        let mut members = sight.members(set, block);
         while members != 0 {
             sum += T::of(seen, block * BLOCK + members.trailing_zeros() as usize);
             members &= members - 1;
@@ -349,8 +366,8 @@ impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
         let mut members = [[R::ZERO; ROOM]; 4];
         let mut filled = 0;
         let mut sums = [[L::splat(R::ZERO); BLOCK]; 3];
-        for block in 0..seen.marks.len() {
-            let marks = u32::from(sight.marks(block)[set]);
+        for block in 0..seen.blocks() {
+            let marks = u32::from(sight.members(set, block));
             for part in (0..BLOCK).step_by(L::WIDTH) {
                 let bits = marks >> part & mask_of(L::WIDTH);
                 let ([x, y, z], squared) = seen.several::<L>(block * BLOCK + part);
@@ -465,8 +482,8 @@ impl<R: Scalar, S: Sight> Task<R> for Nearest<'_, R, S> {
         // the members, whoever stands between them
         let (mut squares, mut rows) = ([R::INFINITY; ROOM], [0; ROOM]);
         let mut count = 0;
-        for block in 0..seen.marks.len() {
-            let marks = u32::from(sight.marks(block)[set]);
+        for block in 0..seen.blocks() {
+            let marks = u32::from(sight.members(set, block));
             if marks == 0 {
                 continue;
             }
@@ -553,7 +570,7 @@ impl<S: Sight> Task<f32> for NearestRoughly<'_, S> {
         let squared = &squared[..blocks * BLOCK];
         let mut least = [L::splat(f32::INFINITY); KEPT];
         for block in 0..blocks {
-            let marks = u32::from(sight.marks(block)[set]);
+            let marks = u32::from(sight.members(set, block));
             for part in (0..BLOCK).step_by(L::WIDTH) {
                 let least = &mut least[part / L::WIDTH];
                 let nearer = L::load(&squared[block * BLOCK + part..]).lesser(*least);
@@ -565,7 +582,7 @@ impl<S: Sight> Task<f32> for NearestRoughly<'_, S> {
         let mut list = [0; 2 * KEPT];
         let mut listed = 0;
         for block in 0..blocks {
-            let marks = u32::from(sight.marks(block)[set]);
+            let marks = u32::from(sight.members(set, block));
             for part in (0..BLOCK).step_by(L::WIDTH) {
                 let first = block * BLOCK + part;
                 let near = L::load(&squared[first..]).less_equal(bound).bits() & marks >> part;
@@ -689,7 +706,7 @@ impl<R: Scalar> BehaviourSelection<R> {
         if considered <= KEPT
             && let Some(Rough { squared, margin, .. }) = seen.rough
         {
-            let blocks = seen.marks.len();
+            let blocks = seen.blocks();
             let roughly = NearestRoughly { squared, margin, blocks, sight, set, considered };
             if let Some((kept, listed)) = with_lanes::<f32, _>(level(), roughly) {
                 let mut left = Self::nearest_of(seen, &kept[..listed], considered);
@@ -709,15 +726,15 @@ impl<R: Scalar> BehaviourSelection<R> {
             return sum;
         }
         // too many to list, or ties: whoever has fewer nearer ones than that
-        for block in 0..seen.marks.len() {
-            for l in (0..BLOCK).filter(|l| sight.marks(block)[set] >> l & 1 == 1) {
+        for block in 0..seen.blocks() {
+            for l in (0..BLOCK).filter(|l| sight.members(set, block) >> l & 1 == 1) {
                 let k = block * BLOCK + l;
                 let nearer = |other: usize| {
                     (0..BLOCK)
-                        .filter(|l| sight.marks(other)[set] >> l & 1 == 1 && before(seen, other * BLOCK + l, k))
+                        .filter(|l| sight.members(set, other) >> l & 1 == 1 && before(seen, other * BLOCK + l, k))
                         .count()
                 };
-                if (0..seen.marks.len()).map(nearer).sum::<usize>() < considered {
+                if (0..seen.blocks()).map(nearer).sum::<usize>() < considered {
                     sum += T::of(seen, k);
                 }
             }
@@ -773,13 +790,7 @@ impl<R: Scalar> BehaviourSelection<R> {
         draws: &Draws<'_>,
     ) -> Wish<R> {
         let (theta, phi) = (me.own[THETA], me.own[PHI]);
-        let mut counts = [0u32; 3];
-        for block in 0..seen.marks.len() {
-            let marks = sight.marks(block);
-            for set in 0..3 {
-                counts[set] += marks[set].count_ones();
-            }
-        }
+        let counts = [AVOIDANCE, ALIGNMENT, ATTRACTION].map(|set| sight.count(set, seen.blocks()));
         let (mut away, mut obstacles) = (Vector::<R, 3>::ZERO, 0u32);
         for obstacle in me.around.obstacles {
             if !self.obstacle_blind || self.sees(me.heading(), (theta, phi), -obstacle.away) {
