@@ -562,7 +562,11 @@ impl<R: Real, const D: usize> Cells<R, D> {
 
     /// Coordinates of the cell nearest to `p`.
     fn coordinates(&self, p: Vector<R, D>) -> [usize; D] {
-        core::array::from_fn(|a| ((p[a] - self.low[a]) * self.per_size[a]).index().min(self.dimensions[a] - 1))
+        let mut place = [0; D];
+        for a in 0..D {
+            place[a] = ((p[a] - self.low[a]) * self.per_size[a]).index().min(self.dimensions[a] - 1);
+        }
+        place
     }
 
     fn number(&self, place: [usize; D]) -> usize {

@@ -320,11 +320,13 @@ pub struct Percepts<'a, R, const D: usize> {
     pub others: &'a Columns<R, D>,
     /// Column in `others` of each of the model's declared columns.
     pub columns: &'a [usize],
+    /// Whether percept `k` is row `k` of `others`. Only for laws that ask for marks.
+    pub whole: bool,
     /// How laws that ask for marks may have to do with less; they use [`Self::at`] and [`Self::several`].
     pub rough: Option<Rough<'a, R, D>>,
 }
 
-/// Percepts that are all rows of the state, in their order, and of which only squared distances are written down, roughly.
+/// Percepts that are whole, and of which only squared distances are written down, roughly.
 #[derive(Clone, Copy)]
 pub struct Rough<'a, R, const D: usize> {
     /// From where displacements are taken.

@@ -192,16 +192,25 @@ impl<R: Scalar, const D: usize> World<R, D> {
     #[inline(always)]
     fn touches_close(&self, row: usize, places: &[Vec<R>; D], limit: R) -> bool {
         let blocks = self.close.blocks;
-        for (block, &bits) in self.close.marks[row * blocks..(row + 1) * blocks].iter().enumerate() {
-            let mut bits = bits;
+        // four blocks at a time, since most are empty
+        let (fours, rest) = self.close.marks[row * blocks..(row + 1) * blocks].as_chunks::<4>();
+        let touches = |first: usize, mut bits: u64| {
             while bits != 0 {
-                if self.touches_other(row, block * BLOCK + bits.trailing_zeros() as usize, places, limit) {
+                if self.touches_other(row, first * BLOCK + bits.trailing_zeros() as usize, places, limit) {
                     return true;
                 }
                 bits &= bits - 1;
             }
+            false
+        };
+        for (four, &[a, b, c, d]) in fours.iter().enumerate() {
+            let [a, b, c, d] = [a, b, c, d].map(u64::from);
+            if touches(4 * four, a | b << BLOCK | c << (2 * BLOCK) | d << (3 * BLOCK)) {
+                return true;
+            }
         }
-        false
+        let first = 4 * fours.len();
+        rest.iter().enumerate().any(|(block, &bits)| touches(first + block, u64::from(bits)))
     }
 
     /// So close together two must be before the step to touch after it, whoever they are and however they move.

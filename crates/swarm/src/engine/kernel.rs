@@ -181,7 +181,8 @@ pub(crate) struct Scratch<R, const D: usize> {
     close: Vec<u16>,
     /// Outer radius of that ring where all rows were marked in the last decision, else 0.
     close_within: R,
-    /// Whether the percepts are all rows, with displacements that are not written down; and then all rows.
+    /// Whether the percepts are all rows; whether their displacements are not written down, and then all rows.
+    whole: bool,
     rough: bool,
     everyone: Vec<u32>,
     /// Then, the squared distances in single precision, and how wrong they may be.
@@ -213,6 +214,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             marks: [const { Vec::new() }; RINGS],
             close: Vec::new(),
             close_within: R::ZERO,
+            whole: false,
             rough: false,
             everyone: Vec::new(),
             rough_squared: Lined::new(),
@@ -691,6 +693,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         } else if !matches!(view.index, Index::Live(_)) {
             let segments = &everyone(view);
             scratch.close_within = rings.outer[0].root();
+            scratch.whole = true;
             if self.mark_coarse(view, row, heading, rings, scratch) {
                 scratch.rough = true;
             } else if view.space.is_periodic() {
@@ -1129,7 +1132,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         // an explanation goes the long way, over lists, which comes to the same
         let quick = M::MARKS && trace.is_none();
         scratch.close_within = R::ZERO;
-        scratch.rough = false;
+        (scratch.whole, scratch.rough) = (false, false);
         let heading = view.heading_of(row);
         let marked = match &stages.rings {
             Some(rings) if quick => stages.mark(view, row, heading, rings, scratch),
@@ -1161,6 +1164,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             marks: firsts(&scratch.marks, scratch.found.div_ceil(BLOCK)),
             others: if indirect { &scratch.sensed } else { view.others },
             columns: &stages.columns,
+            whole: scratch.whole,
             rough: if scratch.rough {
                 Some(Rough { from: position, squared: &scratch.rough_squared, margin: scratch.margin })
             } else {

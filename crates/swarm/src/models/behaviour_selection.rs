@@ -12,7 +12,7 @@ use crate::selection::{NamedSet, Perception};
 use crate::sensing::cos_half;
 use crate::{choice, parameters};
 use space::angles::{arc_tangent, sine_cosine, wrapped};
-use space::lanes::{Lanes, Mask, Task, level, with_lanes};
+use space::lanes::{Lanes, Mask, Task, level, reciprocal_root, with_lanes};
 use space::{Column, ColumnKind, Real, Vector};
 
 choice! {
@@ -255,20 +255,6 @@ impl Sight for Selected<'_> {
     fn members(&self, set: usize, block: usize) -> u16 {
         self.0[set][block]
     }
-    #[inline(always)]
-    fn count(&self, set: usize, _: usize) -> u32 {
-        // four blocks at a time
-        let (fours, rest) = self.0[set].as_chunks::<4>();
-        let mut count = 0;
-        for &[a, b, c, d] in fours {
-            let [a, b, c, d] = [a, b, c, d].map(u64::from);
-            count += (a | b << 16 | c << 32 | d << 48).count_ones();
-        }
-        for block in rest {
-            count += block.count_ones();
-        }
-        count
-    }
 }
 
 /// Sight within limits of azimuth and elevation.
@@ -326,12 +312,11 @@ impl<R: Scalar> Term<R> for Directions {
     }
 }
 
-/// Unit vectors of offsets, by one division each; zero where coincident.
+/// Unit vectors of offsets; zero where coincident.
 #[inline(always)]
 fn towards<R: Scalar, L: Lanes<R>>(offset: &[L; 3], squared: L) -> [L; 3] {
-    let distance = squared.square_root();
-    let apart = L::splat(R::TINY).less(distance);
-    let per = L::choose(apart, L::splat(R::ONE) / distance, L::splat(R::ZERO));
+    let apart = L::splat(R::TINY * R::TINY).less(squared);
+    let per = L::choose(apart, reciprocal_root::<R, L>(squared), L::splat(R::ZERO));
     [offset[0] * per, offset[1] * per, offset[2] * per]
 }
 
@@ -349,8 +334,8 @@ fn sum_in_order<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl S
     sum
 }
 
-/// Sums of the unit vectors towards every sixteenth member of a set each, so that the processor may add several at a time,
-/// and then the sum of these; the number does not depend on the processor.
+/// Sums of the unit vectors towards the members in every sixteenth row each, so that the processor may add several at a time,
+/// and then the sum of these; the number depends neither on the processor nor on who stands between the members.
 struct SumOfDirections<'a, R, S> {
     seen: &'a Percepts<'a, R, 3>,
     sight: &'a S,
@@ -360,36 +345,33 @@ impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
     type Output = Vector<R, 3>;
     #[inline(always)]
     fn run<L: Lanes<R>>(self) -> Vector<R, 3> {
-        const ROOM: usize = 8 * BLOCK;
         let Self { seen, sight, set } = self;
-        // members side by side, whoever stands between them
-        let mut members = [[R::ZERO; ROOM]; 4];
-        let mut filled = 0;
-        let mut sums = [[L::splat(R::ZERO); BLOCK]; 3];
+        let mut sums = [[R::ZERO; BLOCK]; 3];
         for block in 0..seen.blocks() {
-            let marks = u32::from(sight.members(set, block));
-            for part in (0..BLOCK).step_by(L::WIDTH) {
-                let bits = marks >> part & mask_of(L::WIDTH);
-                let ([x, y, z], squared) = seen.several::<L>(block * BLOCK + part);
-                for (members, lanes) in members.iter_mut().zip([x, y, z, squared]) {
-                    lanes.pack(bits, &mut members[filled..]);
+            let mut members = u32::from(sight.members(set, block));
+            if seen.whole && members != 0 {
+                for part in (0..BLOCK).step_by(L::WIDTH) {
+                    let (offset, squared) = seen.several::<L>(block * BLOCK + part);
+                    let unit = towards(&offset, squared);
+                    for a in 0..3 {
+                        let sum = L::load(&sums[a][part..]);
+                        sum.add_where(L::Mask::from_bits(members >> part), unit[a]).store(&mut sums[a][part..]);
+                    }
                 }
-                filled += bits.count_ones() as usize;
+                continue;
             }
-            if filled > ROOM - 2 * BLOCK {
-                let whole = filled - filled % BLOCK;
-                add_directions(&mut sums, &members, whole);
-                members.iter_mut().for_each(|column| column.copy_within(whole..whole + BLOCK, 0));
-                filled -= whole;
+            while members != 0 {
+                let k = block * BLOCK + members.trailing_zeros() as usize;
+                let unit = Directions::of(seen, k);
+                for a in 0..3 {
+                    sums[a][seen.row[k] as usize % BLOCK] += unit[a];
+                }
+                members &= members - 1;
             }
         }
-        add_directions(&mut sums, &members, filled);
         let mut sum = Vector::ZERO;
         for a in 0..3 {
-            let mut each = [R::ZERO; BLOCK];
-            for part in (0..BLOCK).step_by(L::WIDTH) {
-                sums[a][part / L::WIDTH].store(&mut each[part..]);
-            }
+            let each = &mut sums[a];
             let mut half = BLOCK / 2;
             while half > 0 {
                 for l in 0..half {
@@ -400,26 +382,6 @@ impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
             sum.0[a] = each[0];
         }
         sum
-    }
-}
-
-/// Adds the unit vectors of the first `count` of these columns (offset, squared distance) to the sums of every sixteenth.
-#[inline(always)]
-fn add_directions<R: Scalar, L: Lanes<R>, const N: usize>(
-    sums: &mut [[L; BLOCK]; 3],
-    columns: &[[R; N]; 4],
-    count: usize,
-) {
-    for first in (0..count).step_by(BLOCK) {
-        for part in (0..BLOCK).step_by(L::WIDTH) {
-            let [x, y, z, squared] = columns.each_ref().map(|column| L::load(&column[first + part..]));
-            let there = L::Mask::from_bits(mask_of(count.saturating_sub(first + part)));
-            let unit = towards(&[x, y, z], squared);
-            for a in 0..3 {
-                let sum = &mut sums[a][part / L::WIDTH];
-                *sum = sum.add_where(there, unit[a]);
-            }
-        }
     }
 }
 
