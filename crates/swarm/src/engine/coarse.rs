@@ -229,7 +229,7 @@ mod tests {
                 }
             }
         }
-        // of 16,000, most can be told but those that are a hundred thousand radii away from the origin
-        assert!(told > 8_000, "{told}");
+        // of 16,000; those far from the origin, and those who stand at a bound on purpose, are to look again
+        assert!(told > 6_000, "{told}");
     }
 }
