@@ -42,14 +42,8 @@ fn torn(from: &Path, to: &Path, log: &str) {
     std::fs::write(to.join(log), &bytes[..bytes.len() * 3 / 5]).unwrap();
 }
 
-const DESIGN: [&str; 6] = [
-    "candidates.parquet",
-    "results.parquet",
-    "trials.parquet",
-    "rates.parquet",
-    "robustness.parquet",
-    "report.html",
-];
+const DESIGN: [&str; 6] =
+    ["candidates.parquet", "results.parquet", "trials.parquet", "rates.parquet", "robustness.parquet", "report.html"];
 
 #[test]
 fn a_design_is_the_same_for_any_threads_and_stops() {

@@ -32,11 +32,44 @@ impl Kind for Design {
     }
     fn reference(&self) -> String {
         let signals: Vec<String> = SIGNALS.iter().map(|(_, usage, about)| format!("- `{usage}`: {about}")).collect();
+        let filters: Vec<String> = terrain::filters::all()
+            .iter()
+            .map(|filter| {
+                let card = filter.card();
+                let numbers: Vec<String> =
+                    card.parameters.iter().map(|(name, about)| format!(" `{name}`: {about}")).collect();
+                format!("- `{}`: {}{}", card.id, card.about, numbers.concat())
+            })
+            .collect();
+        let behaviours: Vec<String> = measure::behaviours::LIST
+            .iter()
+            .map(|card| {
+                let numbers: Vec<String> =
+                    card.parameters.iter().map(|one| format!("`{}` {}", one.name, one.default)).collect();
+                let needs =
+                    if card.needs.is_empty() { String::new() } else { format!(" Needs {}.", card.needs.join(", ")) };
+                let numbers =
+                    if numbers.is_empty() { String::new() } else { format!(" Numbers: {}.", numbers.join(", ")) };
+                format!("- `{}`: {}.{needs}{numbers}", card.id, card.definition)
+            })
+            .collect();
+        let primitives: Vec<String> = terrain::primitives::all()
+            .iter()
+            .map(|kind| {
+                let names: Vec<String> = kind.attributes.iter().map(|one| format!("`{}`", one.name)).collect();
+                format!("- `{}`: {} Attributes: {}.", kind.id, kind.about, names.join(", "))
+            })
+            .collect();
         let names: Vec<String> = NAMES.iter().map(|(name, about)| format!("- `{name}`: {about}")).collect();
         let lead = format!(
-            "Every key of a design file, TOML. [How to write one](../how-to/design.md).\n\n\
+            "Every key of a design file, TOML. [How to write one](../how-to/design.md). Schemas are listed with [map \
+             files](map.md).\n\nShipped grammars: {}.\n\nFilters:\n\n{}\n\nPrimitives:\n\n{}\n\nBehaviours:\n\n{}\n\n\
              Signals that behaviours read:\n\n{}\n\nWhat statements can ask for, with `[behaviour = ..., population = ...]` \
              where there are several:\n\n{}",
+            terrain::grammars::LIST.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
+            filters.join("\n"),
+            primitives.join("\n"),
+            behaviours.join("\n"),
             signals.join("\n"),
             names.join("\n")
         );

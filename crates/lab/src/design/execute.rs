@@ -119,7 +119,6 @@ pub fn run(
             Ok(())
         },
     );
-    let seconds = began.elapsed().as_secs_f64();
     let mut left = survey.feasible.iter().filter(|(attempt, _)| !there.contains_key(attempt)).count();
     let candidates = missing.len() - left;
     let stopped = |manifest: &mut Json, error: StoreError| {
@@ -129,12 +128,6 @@ pub fn run(
         error
     };
     done.map_err(|error| stopped(&mut manifest, error))?;
-    if let Some(Json::Object(session)) =
-        manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|sessions| sessions.last_mut())
-    {
-        session.insert("seconds".into(), json!(seconds));
-        session.insert("candidates".into(), json!(candidates));
-    }
     let mut lines = Vec::new();
     if left == 0 {
         let results = Results::new(plan, survey, there);
@@ -159,6 +152,13 @@ pub fn run(
             lines = report::lines(&results);
             finish(&folder, &results, &copies, program)?;
         }
+    }
+    let seconds = began.elapsed().as_secs_f64();
+    if let Some(Json::Object(session)) =
+        manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|sessions| sessions.last_mut())
+    {
+        session.insert("seconds".into(), json!(seconds));
+        session.insert("candidates".into(), json!(candidates));
     }
     manifest["status"] = json!(if left == 0 { "complete" } else { "stopped" });
     folder.write_manifest(&manifest)?;

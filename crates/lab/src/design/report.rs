@@ -33,7 +33,7 @@ pub fn lines(results: &Results<'_>) -> Vec<String> {
         lines.push(format!("{}, {}: {}; without the construct {}", row[0], row[1], row[2], row[3]));
     }
     let judged = claims::rows(&results.plan.form.claim, results, results.plan.form.seed);
-    lines.extend(judged.into_iter().map(|row| format!("{}: {} [{}]", row[0], row[6], row[4])));
+    lines.extend(judged.into_iter().map(|row| claims::line(&row)));
     lines
 }
 

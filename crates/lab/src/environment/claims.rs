@@ -155,6 +155,13 @@ pub fn rows(claims: &[Claim], data: &dyn Data, seed: u64) -> Vec<Vec<String>> {
     claims.iter().map(row).collect()
 }
 
+/// A row of [`rows`] as a line for a terminal: name, verdict, and the number where there is one.
+pub fn line(row: &[String]) -> String {
+    let word = |k: usize| row.get(k).map_or("", String::as_str);
+    let number = if word(4).is_empty() { String::new() } else { format!(" [{}]", word(4)) };
+    format!("{}: {}{number}", word(0), word(6))
+}
+
 /// The header of [`rows`].
 pub fn header() -> Vec<String> {
     ["id", "statement", "source", "published", "obtained (95 %)", "class", "verdict"].map(str::to_owned).to_vec()

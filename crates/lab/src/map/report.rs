@@ -15,7 +15,7 @@ pub fn lines(found: &Found<'_>) -> Vec<String> {
         )
     });
     let judged = claims::rows(&found.plan.form.claim, found, found.plan.form.seed);
-    panels.chain(judged.into_iter().map(|row| format!("{}: {} [{}]", row[0], row[6], row[4]))).collect()
+    panels.chain(judged.into_iter().map(|row| claims::line(&row))).collect()
 }
 
 /// The page.
