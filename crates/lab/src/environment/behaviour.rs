@@ -270,9 +270,9 @@ impl ConditionForm {
             condition = condition.sustained(steps);
         }
         if let Some(steps) = &self.always {
-            condition = match steps.as_slice() {
-                &[from] => Condition::Always(from, None, Box::new(condition)),
-                &[from, to] if from <= to => Condition::Always(from, Some(to), Box::new(condition)),
+            condition = match *steps.as_slice() {
+                [from] => Condition::Always(from, None, Box::new(condition)),
+                [from, to] if from <= to => Condition::Always(from, Some(to), Box::new(condition)),
                 _ => return Err(Wrong::new("always", "`always` takes [from] or [from, to], in order", "steps")),
             };
         }

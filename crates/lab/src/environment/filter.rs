@@ -72,13 +72,12 @@ impl Form for FilterForm {
             }
         }
     }
-    fn shape(rule: &Rule<'_>) -> Shape {
+    fn shape(_: &Rule<'_>) -> Shape {
         let field = |name: &str, about: &str, shape| Field { shape, ..number_field(name, about, "", None) };
         let one = |card: &&'static FilterCard| {
             let parameters = card.parameters.iter().map(|(name, about)| number_field(name, about, "", None)).collect();
             field(card.id, card.about, Shape::Fields(parameters))
         };
-        let _ = rule;
         let several = || Shape::List(Box::new(Shape::Anything));
         let mut fields: Vec<Field> = cards().iter().map(one).collect();
         fields.push(field("all", "Filters all of which must pass.", several()));
