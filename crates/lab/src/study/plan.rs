@@ -205,7 +205,7 @@ pub(crate) struct Files<'a> {
 
 impl Files<'_> {
     /// Path and text of a file beside another.
-    fn loaded(&mut self, beside: &str, file: &str, place: &Span) -> Option<(String, String)> {
+    pub(crate) fn loaded(&mut self, beside: &str, file: &str, place: &Span) -> Option<(String, String)> {
         let path = std::path::Path::new(beside).parent().map_or_else(|| file.into(), |folder| folder.join(file));
         let path = path.to_string_lossy().into_owned();
         match (self.load)(&path) {
@@ -261,7 +261,7 @@ impl Files<'_> {
         Some(base)
     }
     /// Puts a table of values over a tree; a key with dots is a path, whose value is put as it is.
-    fn put(&mut self, tree: &mut Node, patch: &Node) -> Option<()> {
+    pub(crate) fn put(&mut self, tree: &mut Node, patch: &Node) -> Option<()> {
         let Tree::Table(entries) = &patch.tree else {
             let what = format!("a table of paths and values is needed here, found {}", patch.tree.describe());
             self.desk.problem(&patch.span, what, "expected a table", "");
