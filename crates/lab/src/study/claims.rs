@@ -173,7 +173,7 @@ impl Names for Data<'_> {
 }
 
 /// Notes what is wrong with the names, figures, tests and statements of a part.
-pub(super) fn check(plan: &Plan, part: usize, tree: &Node, sources: &Sources, desk: &mut Desk) {
+pub(crate) fn check(plan: &Plan, part: usize, tree: &Node, sources: &Sources, desk: &mut Desk) {
     let part = &plan.parts[part];
     names_are_free(plan, part, tree, desk);
     let readings: Vec<&str> = plan.readings.iter().map(|(name, _)| name.as_str()).collect();
@@ -315,7 +315,15 @@ pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawing
         Some(Ok(value)) => value.truth().ok_or_else(|| "it is neither true nor false".to_owned()),
         Some(Err(mistake)) => Err(mistake.what),
     };
-    let fewest = (0..plan.cells.len()).map(|cell| of_cell(plan, results, cell).count()).min().unwrap_or(0);
+    // of the parts that it is about
+    let asked = number_of.iter().chain(&holds).filter_map(|expression| expression.as_ref().ok());
+    let names: Vec<&str> = asked.flat_map(Expression::names).collect();
+    let parts = names.iter().map(|name| {
+        let named = name.split_once('.').and_then(|(own, _)| plan.parts.iter().find(|part| part.name == own));
+        named.unwrap_or(part)
+    });
+    let cells = parts.flat_map(|part| part.cells.clone());
+    let fewest = cells.map(|cell| of_cell(plan, results, cell).count()).min().unwrap_or(0);
     let (mut drawn, mut held) = (vec![Vec::new(); number.len()], 0.0);
     for counts in &drawings.counts {
         let mean = |cell: usize, reading: usize| {

@@ -231,6 +231,30 @@ form! {
     }
 }
 
+words! {
+    /// What is read off the food.
+    pub enum FoodQuantity {
+        /// Items consumed per member.
+        Meals = "meals",
+        /// Mean time from the appearance of an item to its consumption, of those that were consumed.
+        Wait = "wait",
+        /// Share of the contested items that were consumed by the group: a living member of another group was near as well.
+        Won = "won",
+    }
+}
+
+form! {
+    /// Something of the food that a group consumes, over the whole trial.
+    pub struct FoodReading {
+        /// What.
+        quantity: FoodQuantity = need, "", Any;
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
+        /// Whoever is closer than this to an item, when it is consumed, contests it.
+        near: f64 = [20.0], "length", Positive;
+    }
+}
+
 tagged! {
     /// What is read off a trial: one number.
     pub enum Quantity {
@@ -248,6 +272,8 @@ tagged! {
         cluster => Cluster(ClusterReading);
         /// Something of the paths.
         path => Path(PathReading);
+        /// Something of the food.
+        food => Food(FoodReading);
         /// The distance between obstacles.
         obstacle_distance => ObstacleDistance(ObstacleReading);
     }

@@ -260,6 +260,29 @@ impl Files<'_> {
         self.put(&mut base, set)?;
         Some(base)
     }
+    /// A file with the keys of those it extends, where it has none of its own. `depth` counts them.
+    pub(crate) fn extended(&mut self, name: &str, mut tree: Node, depth: usize) -> Option<Node> {
+        let Some(node) = tree.get("extends").cloned() else { return Some(tree) };
+        let Tree::Text(file) = &node.tree else { return Some(tree) };
+        if depth == CHAIN {
+            self.desk.problem(&node.span, "too many files extend one another", "a circle?", "");
+            return None;
+        }
+        let (path, text) = self.loaded(name, file, &node.span)?;
+        let source = self.sources.add(&path, &text);
+        let under = parse(&self.sources, source, &mut self.desk.problems);
+        if !self.desk.problems.is_empty() {
+            return None;
+        }
+        let under = self.extended(&path, under, depth + 1)?;
+        if let Tree::Table(entries) = &mut tree.tree {
+            entries.retain(|entry| entry.key != "extends");
+        }
+        let mut joined = under;
+        join(&mut joined, &tree);
+        joined.span = tree.span;
+        Some(joined)
+    }
     /// Puts a table of values over a tree; a key with dots is a path, whose value is put as it is.
     pub(crate) fn put(&mut self, tree: &mut Node, patch: &Node) -> Option<()> {
         let Tree::Table(entries) = &patch.tree else {
@@ -375,7 +398,7 @@ impl Reader<'_> {
         if !self.files.desk.problems.is_empty() {
             return None;
         }
-        let tree = self.extended(name, tree, 0)?;
+        let tree = self.files.extended(name, tree, 0)?;
         let before = self.files.desk.problems.len();
         let study = Study::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut self.files.desk)?;
         if self.files.desk.problems.len() > before {
@@ -384,29 +407,6 @@ impl Reader<'_> {
         let stem = std::path::Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("study");
         Some(Raw { name: stem.to_owned(), study, tree })
     }
-    fn extended(&mut self, name: &str, mut tree: Node, depth: usize) -> Option<Node> {
-        let Some(node) = tree.get("extends").cloned() else { return Some(tree) };
-        let Tree::Text(file) = &node.tree else { return Some(tree) };
-        if depth == CHAIN {
-            self.files.desk.problem(&node.span, "too many files extend one another", "a circle?", "");
-            return None;
-        }
-        let (path, text) = self.files.loaded(name, file, &node.span)?;
-        let source = self.files.sources.add(&path, &text);
-        let under = parse(&self.files.sources, source, &mut self.files.desk.problems);
-        if !self.files.desk.problems.is_empty() {
-            return None;
-        }
-        let under = self.extended(&path, under, depth + 1)?;
-        if let Tree::Table(entries) = &mut tree.tree {
-            entries.retain(|entry| entry.key != "extends");
-        }
-        let mut joined = under;
-        join(&mut joined, &tree);
-        joined.span = tree.span;
-        Some(joined)
-    }
-
     fn part(&mut self, plan: &mut Plan, raw: &Raw, trials: usize) -> Option<()> {
         let study = &raw.study;
         let start = Span { source: raw.tree.span.source, bytes: 0..0 };

@@ -16,8 +16,18 @@ const LEVEL: f64 = 0.05;
 /// Cells that are listed in the page; all are in the table.
 const LISTED: usize = 300;
 
-/// The page.
-pub fn page(plan: &Plan, results: &Results, program: &str) -> Page {
+/// What the data say of everything that was asked: figures, tests as sentences, statements, cells.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Answers {
+    pub(crate) figures: Vec<Figure>,
+    pub(crate) sentences: Vec<String>,
+    pub(crate) tables: Vec<Table>,
+    /// How many statements hold.
+    pub(crate) facts: Vec<Fact>,
+}
+
+/// Answers everything that a plan asks of results.
+pub(crate) fn answers(plan: &Plan, results: &Results) -> Answers {
     let most = results.iter().filter_map(|trials| trials.keys().last()).copied().max().unwrap_or(0);
     let drawings = Drawings::of(plan.seed, most);
     let mut figures = Vec::new();
@@ -87,13 +97,21 @@ pub fn page(plan: &Plan, results: &Results, program: &str) -> Page {
         tables.push(Table { file: file.into(), about: about.into(), csv: csv(&rows) });
     }
     figures.extend(listings.into_iter().map(Figure::Listing));
+    Answers { figures, sentences, tables, facts: held(&judgements) }
+}
+
+/// The page.
+pub fn page(plan: &Plan, results: &Results, program: &str) -> Page {
+    let Answers { figures, sentences, tables, facts } = answers(plan, results);
     let mut methods = methods(plan);
     methods.extend(sentences);
+    let mut summary = summary(plan, results);
+    summary.extend(facts);
     Page {
         title: plan.title.clone(),
         lead: paragraphs(&plan.about),
         methods,
-        summary: summary(plan, results, &judgements),
+        summary,
         figures,
         tables,
         command: command(plan),
@@ -112,8 +130,11 @@ fn command(plan: &Plan) -> String {
     format!("flockworks run {}{}{sets}", plan.sources.name(0), if plan.quick { " --quick" } else { "" })
 }
 
-fn summary(plan: &Plan, results: &Results, judgements: &[(super::form::Strength, Judged)]) -> Vec<Fact> {
-    let fact = |label: &str, value: String| Fact { label: label.into(), value };
+fn fact(label: &str, value: String) -> Fact {
+    Fact { label: label.into(), value }
+}
+
+fn summary(plan: &Plan, results: &Results) -> Vec<Fact> {
     let trials: usize = results.iter().map(BTreeMap::len).sum();
     let wanted = Selection::default().units(plan);
     let left = wanted.iter().filter(|(condition, trial)| !results[*condition].contains_key(trial)).count();
@@ -128,6 +149,12 @@ fn summary(plan: &Plan, results: &Results, judgements: &[(super::form::Strength,
     if left > 0 {
         facts.push(fact("Trials still missing", left.to_string()));
     }
+    facts
+}
+
+/// How many statements of each strength hold.
+fn held(judgements: &[(super::form::Strength, Judged)]) -> Vec<Fact> {
+    let mut facts = Vec::new();
     for strength in [super::form::Strength::A, super::form::Strength::B, super::form::Strength::C] {
         let of = |verdict: &str| {
             judgements.iter().filter(|(own, judged)| *own == strength && judged.verdict.words() == verdict).count()
@@ -489,7 +516,7 @@ fn cells_in_full(plan: &Plan, results: &Results) -> Vec<Vec<String>> {
     core::iter::once(header).chain(plan.cells.iter().enumerate().map(row)).collect()
 }
 
-fn csv(rows: &[Vec<String>]) -> String {
+pub(crate) fn csv(rows: &[Vec<String>]) -> String {
     let cell = |text: &String| {
         if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.clone() }
     };

@@ -4,6 +4,7 @@ use super::form::{
     ClusterQuantity, ClusterReading, ContactReading, CoverageReading, Partner, PathQuantity, Quantity, ShareReading,
     Whose,
 };
+use super::meals::Meals;
 use super::plan::{Condition, Plan, entry_place};
 use crate::file::{Desk, Node};
 use crate::scenario::build;
@@ -139,7 +140,7 @@ where
         }
         world.step();
         for &k in &every_step {
-            readers[k].step(world.met());
+            readers[k].step(&world);
         }
     }
     Ok(Some(readers.iter().map(|reader| reader.value(&world).unwrap_or(f64::NAN)).collect()))
@@ -242,9 +243,9 @@ trait Reader<R: Scalar, const D: usize> {
     fn steps(&self) -> bool {
         false
     }
-    /// Takes in what each agent met in a step, by id.
-    fn step(&mut self, met: &[Met]) {
-        let _ = met;
+    /// Takes in a step that was made.
+    fn step(&mut self, world: &World<R, D>) {
+        let _ = world;
     }
     /// The number, at the end.
     fn value(&self, world: &World<R, D>) -> Option<f64>;
@@ -315,6 +316,7 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
             curvature: Curvature::default(),
             mean: Mean::default(),
         }),
+        Quantity::Food(reading) => Box::new(Meals::new(reading, world)?),
         Quantity::ObstacleDistance(reading) => Box::new(OfObstacles { scale: reading.scale }),
     })
 }
@@ -410,6 +412,19 @@ impl<R: Scalar, const D: usize> Reader<R, D> for OfColumn {
     }
 }
 
+impl<R: Scalar, const D: usize> Reader<R, D> for Meals<R, D> {
+    fn look(&mut self, _: &Look<'_, R, D>) {}
+    fn steps(&self) -> bool {
+        true
+    }
+    fn step(&mut self, world: &World<R, D>) {
+        Self::step(self, world);
+    }
+    fn value(&self, world: &World<R, D>) -> Option<f64> {
+        Self::value(self, world)
+    }
+}
+
 struct OfContacts {
     reading: ContactReading,
     /// What each agent met in the step before.
@@ -423,7 +438,8 @@ impl<R: Scalar, const D: usize> Reader<R, D> for OfContacts {
     fn steps(&self) -> bool {
         self.reading.events
     }
-    fn step(&mut self, met: &[Met]) {
+    fn step(&mut self, world: &World<R, D>) {
+        let met = world.met();
         self.before.resize(met.len(), Met::Nothing);
         for (now, before) in met.iter().zip(&mut self.before) {
             if *before == Met::Nothing {
