@@ -477,15 +477,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         if (0..self.now.len()).all(|row| self.now.id[row] as usize == row) {
             return;
         }
-        let rows = self.frame().rows_by_id();
-        for (id, &row) in rows.iter().enumerate() {
-            self.next.set_position(id, self.now.position(row));
-            self.next.set_velocity(id, self.now.velocity(row));
-            for (to, from) in self.next.state.iter_mut().zip(&self.now.state) {
-                to[id] = from[row];
-            }
-            self.next.id[id] = id as u32;
-        }
+        self.now.write_by_id(&mut self.next);
         core::mem::swap(&mut self.now, &mut self.next);
     }
     fn update_rows(&mut self) {
@@ -657,15 +649,8 @@ impl<R: Scalar, const D: usize> World<R, D> {
 
     /// The full state, from which a world of the same plan continues with the same bits.
     pub fn save(&self) -> Checkpoint<R, D> {
-        let rows = self.frame().rows_by_id();
         let mut columns = Columns::new(self.now.len(), self.declared.len());
-        for (id, &row) in rows.iter().enumerate() {
-            columns.set_position(id, self.now.position(row));
-            columns.set_velocity(id, self.now.velocity(row));
-            for (to, from) in columns.state.iter_mut().zip(&self.now.state) {
-                to[id] = from[row];
-            }
-        }
+        self.now.write_by_id(&mut columns);
         let mut memory = Vec::new();
         self.memory.iter().for_each(|m| m.save(&mut memory));
         Checkpoint {
