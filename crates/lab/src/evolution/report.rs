@@ -53,8 +53,9 @@ pub fn page(variants: &Variants, runs: &[Run], contests: &[Contest], program: &s
     let mut summary = summary(variants, runs, &champions);
     if asks(plan) {
         let (study, results) = answers::of(variants, runs, contests);
+        let judgements = crate::study::report::judgements(&study, &results);
         let Answers { figures: drawn, sentences, tables: more, facts } =
-            crate::study::report::answers(&study, &results);
+            crate::study::report::answers(&study, &results, &judgements);
         // what was asked comes first
         figures = drawn.into_iter().chain(figures).collect();
         methods.extend(sentences);

@@ -55,6 +55,17 @@ pub struct Judged {
     pub share: Option<f64>,
 }
 
+/// A statement of a study beside what came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// The part that makes it; empty where there is one part, or where it is about several.
+    pub part: String,
+    /// The statement.
+    pub claim: Claim,
+    /// What came of it.
+    pub judged: Judged,
+}
+
 /// The cells of a part that have given levels, by index.
 pub fn matching(plan: &Plan, part: &Part, only: &[(String, Level)]) -> Vec<usize> {
     let fits = |&cell: &usize| {

@@ -6,8 +6,8 @@
 
 use super::expression::{Expression, Mistake, Names, Selector, Value};
 use super::form::{
-    Claim, ContactReading, Design, Factor, Figure, MetricReading, Partner, Quantity, Reading, ShareReading, Study,
-    Test, Whose, Window,
+    Claim, ContactReading, Design, Factor, Figure, MetricReading, Partner, Quantity, Reading, ShareReading, Statistic,
+    Study, Test, Whose, Window,
 };
 use crate::file::tree::parse;
 use crate::file::{Anything, Desk, Form, Named, Node, Problems, Rule, Sources, Span, Tree};
@@ -887,7 +887,8 @@ pub(crate) fn usual_readings(scenario: &Scenario) -> Vec<(String, Reading)> {
         let Some(card) = measure::metrics::LIST.iter().find(|card| card.id == id) else { continue };
         let known = |(name, _): &&(String, f64)| card.parameters.iter().any(|parameter| parameter.name == name);
         let parameters = Named(scenario.measure.parameters.0.iter().filter(known).cloned().collect());
-        let of = Quantity::Metric(MetricReading { id: id.clone(), parameters, scale: 1.0, group: None });
+        let statistic = Statistic::Mean;
+        let of = Quantity::Metric(MetricReading { id: id.clone(), parameters, scale: 1.0, group: None, statistic });
         add(id, card.title, scenario.units.of(card.unit), of);
     }
     for (_, group) in &scenario.group.0 {

@@ -1,9 +1,9 @@
 //! The page of a study: figures of means with their errors, statements with what the data say of them, tests as sentences
 //! for a paper, and every number behind them as a table.
 
-use super::claims::{self, Drawings, Judged, Level, Verdict};
+use super::claims::{self, Drawings, Judged, Judgement, Level, Verdict};
 use super::execute::{Results, Selection};
-use super::form::{Figure as Wanted, Test};
+use super::form::{Claim, Figure as Wanted, Test};
 use super::plan::{Part, Plan, Varied};
 use super::tables::{Summary, by_trial, of_cell};
 use crate::report::{Axis, Fact, Figure, Line, Lines, Listing, Means, Page, Table, short};
@@ -16,6 +16,27 @@ const LEVEL: f64 = 0.05;
 /// Cells that are listed in the page; all are in the table.
 const LISTED: usize = 300;
 
+/// The statements of a study with what the data say of them, part by part; last those about several parts.
+pub fn judgements(plan: &Plan, results: &Results) -> Vec<Judgement> {
+    let most = results.iter().filter_map(|trials| trials.keys().last()).copied().max().unwrap_or(0);
+    let drawings = Drawings::of(plan.seed, most);
+    let judge = |part: &Part, name: &str, claim: &Claim| Judgement {
+        part: name.to_owned(),
+        claim: claim.clone(),
+        judged: claims::judge(plan, results, part, claim, &drawings),
+    };
+    let several = plan.parts.len() > 1;
+    let of = |part: &Part| {
+        let name = if several { part.name.as_str() } else { "" };
+        part.claims.iter().map(|claim| judge(part, name, claim)).collect::<Vec<_>>()
+    };
+    let mut judgements: Vec<Judgement> = plan.parts.iter().flat_map(of).collect();
+    // statements about several parts name the part before each reading
+    judgements
+        .extend(plan.parts.first().into_iter().flat_map(|part| plan.claims.iter().map(move |c| judge(part, "", c))));
+    judgements
+}
+
 /// What the data say of everything that was asked: figures, tests as sentences, statements, cells.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Answers {
@@ -27,21 +48,13 @@ pub(crate) struct Answers {
 }
 
 /// Answers everything that a plan asks of results.
-pub(crate) fn answers(plan: &Plan, results: &Results) -> Answers {
-    let most = results.iter().filter_map(|trials| trials.keys().last()).copied().max().unwrap_or(0);
-    let drawings = Drawings::of(plan.seed, most);
+pub(crate) fn answers(plan: &Plan, results: &Results, judgements: &[Judgement]) -> Answers {
     let mut figures = Vec::new();
-    let mut judgements = Vec::new();
-    let mut statements = Vec::new();
+    let statements: Vec<Vec<String>> =
+        judgements.iter().map(|Judgement { part, claim, judged }| statement(part, claim, judged)).collect();
     let (mut sentences, mut test_rows) = (Vec::new(), Vec::new());
     for part in &plan.parts {
         figures.extend(part.figures.iter().flat_map(|wanted| drawn(plan, results, part, wanted)));
-        for claim in &part.claims {
-            let judged = claims::judge(plan, results, part, claim, &drawings);
-            let part_name = if plan.parts.len() > 1 { part.name.as_str() } else { "" };
-            statements.push(statement(part_name, claim, &judged));
-            judgements.push((claim.strength, judged));
-        }
         for test in &part.tests {
             for (only, cells) in compared(plan, part, test) {
                 let (sentence, rows) = tested(plan, results, part, test, &only, &cells);
@@ -49,12 +62,6 @@ pub(crate) fn answers(plan: &Plan, results: &Results) -> Answers {
                 test_rows.extend(rows);
             }
         }
-    }
-    // statements about several parts name the part before each reading
-    for claim in plan.claims.iter().filter(|_| !plan.parts.is_empty()) {
-        let judged = claims::judge(plan, results, &plan.parts[0], claim, &drawings);
-        statements.push(statement("", claim, &judged));
-        judgements.push((claim.strength, judged));
     }
     let mut listings = Vec::new();
     if !statements.is_empty() {
@@ -97,12 +104,12 @@ pub(crate) fn answers(plan: &Plan, results: &Results) -> Answers {
         tables.push(Table { file: file.into(), about: about.into(), csv: csv(&rows) });
     }
     figures.extend(listings.into_iter().map(Figure::Listing));
-    Answers { figures, sentences, tables, facts: held(&judgements) }
+    Answers { figures, sentences, tables, facts: held(judgements) }
 }
 
 /// The page.
-pub fn page(plan: &Plan, results: &Results, program: &str) -> Page {
-    let Answers { figures, sentences, tables, facts } = answers(plan, results);
+pub fn page(plan: &Plan, results: &Results, judgements: &[Judgement], program: &str) -> Page {
+    let Answers { figures, sentences, tables, facts } = answers(plan, results, judgements);
     let mut methods = methods(plan);
     methods.extend(sentences);
     let mut summary = summary(plan, results);
@@ -153,13 +160,16 @@ fn summary(plan: &Plan, results: &Results) -> Vec<Fact> {
 }
 
 /// How many statements of each strength hold.
-fn held(judgements: &[(super::form::Strength, Judged)]) -> Vec<Fact> {
+fn held(judgements: &[Judgement]) -> Vec<Fact> {
     let mut facts = Vec::new();
     for strength in [super::form::Strength::A, super::form::Strength::B, super::form::Strength::C] {
         let of = |verdict: &str| {
-            judgements.iter().filter(|(own, judged)| *own == strength && judged.verdict.words() == verdict).count()
+            judgements
+                .iter()
+                .filter(|own| own.claim.strength == strength && own.judged.verdict.words() == verdict)
+                .count()
         };
-        let all = judgements.iter().filter(|(own, _)| *own == strength).count();
+        let all = judgements.iter().filter(|own| own.claim.strength == strength).count();
         if all > 0 {
             let text = format!(
                 "{} of {all} hold, {} do not, {} open",

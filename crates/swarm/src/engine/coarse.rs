@@ -59,7 +59,8 @@ impl<const D: usize> Coarse<D> {
         let margin = places * ROUNDING + outermost * (16.0 * ROUNDING);
         let rest = heading.length_squared() <= R::ZERO;
         // not a number fails, too
-        if rest || !(margin < outermost * 1e-3) {
+        let sharp = margin < outermost * 1e-3;
+        if rest || !sharp {
             return None;
         }
         let mut cone = rings.cos_half.to_f64();

@@ -1204,6 +1204,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
     ///
     /// # Safety
     /// No other worker sweeps this row.
+    #[allow(clippy::mut_from_ref, reason = "a writer is shared by workers that each own their rows")]
     #[inline(always)]
     unsafe fn memory<'m>(
         &self,
