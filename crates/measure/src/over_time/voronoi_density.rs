@@ -137,9 +137,9 @@ mod tests {
         let alone = tracks(Space::open(), 1.0, 1, 1, |_, _| Some([0.0, 0.0]))?;
         close(&area.on(&alone)?.columns[2], &[0.25 / 16.0]);
         close(&VoronoiDensity { floor_y1: 0.0, ..area }.on(&alone)?.columns[2], &[0.5 / 16.0]);
-        // corners may be given in either order, and who stands off the floor has no cell
+        // corners may be given in either order; of who stands off the floor the part of the cell on it counts, if any
         let off = VoronoiDensity { floor_x1: 3.0, floor_x2: 0.5, ..area };
-        close(&off.on(&alone)?.row(0), &[0.0, 0.0, 1.0 / 16.0, 1.0]);
+        close(&off.on(&alone)?.row(0), &[0.0, 0.0, 0.5 / 16.0, 1.0]);
         close(&VoronoiDensity { floor_x1: 1.5, ..area }.on(&alone)?.row(0), &[0.0, 0.0, 0.0, 0.0]);
         Ok(())
     }
