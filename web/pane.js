@@ -199,7 +199,8 @@ export class Pane {
   picture(now) {
     if (!this.scene) return;
     if (this.pending) {
-      const isUnexplained = this.focal !== null && !this.explanations.has(this.pending.step);
+      // frames that were under way when the agent was chosen come without
+      const isUnexplained = this.focal !== null && this.explanations.size > 0 && !this.explanations.has(this.pending.step);
       if (isUnexplained && this.frame && this.waited < PATIENCE) {
         this.waited += 1;
         this.request();

@@ -1,6 +1,8 @@
 // Where agents were: the places of the last frames stay on the graphics card, and a trail joins each to the next.
 
-const MOST_SEGMENTS = 40000, LONGEST = 28, WORTH_DRAWING = 3;
+const MOST_SEGMENTS = 10000, LONGEST = 28, WORTH_DRAWING = 3;
+// in a simulation, places farther apart than so many steps do not tell the way between them
+const MOST_STEPS = 25;
 
 /**
  * One buffer of slots, each with the places of all agents at one frame, used in turn. Slot 0 repeats the last one, so
@@ -38,8 +40,8 @@ export class Trails {
   /** Takes the places of a frame; a jump or a turn in time begins anew. */
   add(frame) {
     const by = this.last === null ? 0 : frame.step - this.last;
-    const usual = this.spacing ?? Math.abs(this.direction);
-    const turns = by * this.direction < 0, jumps = usual > 0 && Math.abs(by) > 12 * usual;
+    const usual = this.spacing ?? Math.abs(this.direction), most = this.spacing === null ? MOST_STEPS : Infinity;
+    const turns = by * this.direction < 0, jumps = Math.abs(by) > Math.min(usual > 0 ? 12 * usual : Infinity, most);
     const continues = this.count === frame.agents && by !== 0 && !turns && !jumps;
     if (continues) this.head = this.head % this.slots + 1;
     this.used = continues ? Math.min(this.used + 1, this.slots) : by === 0 && this.used > 0 ? this.used : 1;

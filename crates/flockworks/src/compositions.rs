@@ -28,7 +28,8 @@ fn term(id: &str, given: &[(&str, Value)]) -> (String, Values) {
 
 /// The law of a model, with its defaults, as a composition: parameters and named sets.
 fn composed<R: Scalar, const D: usize>(law: &str) -> (Values, Vec<(String, Perception<R, D>)>) {
-    let (sum, constant, after) = (("take", "sum".into()), ("by_distance", "constant".into()), ("priority", 1usize.into()));
+    let (sum, constant, after) =
+        (("take", "sum".into()), ("by_distance", "constant".into()), ("priority", 1usize.into()));
     let mut sets = Vec::new();
     let (terms, others): (Vec<_>, Vec<(&str, Value)>) = match law {
         "vicsek_1995" => (
@@ -106,7 +107,8 @@ fn of_precision(
 /// Largest difference of any component.
 fn apart(a: &dyn Running, b: &dyn Running) -> f64 {
     let (a, b) = (a.motion(), b.motion());
-    let of = |motion: (Vec<Vec<f64>>, Vec<Vec<f64>>)| motion.0.into_iter().chain(motion.1).flatten().collect::<Vec<_>>();
+    let of =
+        |motion: (Vec<Vec<f64>>, Vec<Vec<f64>>)| motion.0.into_iter().chain(motion.1).flatten().collect::<Vec<_>>();
     of(a).iter().zip(of(b)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
@@ -115,8 +117,11 @@ fn apart(a: &dyn Running, b: &dyn Running) -> f64 {
 /// # Errors
 /// A reader that went away.
 pub fn bench(options: &BenchOptions, out: &mut dyn Write) -> Result<(), Fault> {
-    let sizes: Vec<usize> =
-        if options.agents.is_empty() { vec![200, 10_000] } else { options.agents.iter().map(|&n| n as usize).collect() };
+    let sizes: Vec<usize> = if options.agents.is_empty() {
+        vec![200, 10_000]
+    } else {
+        options.agents.iter().map(|&n| n as usize).collect()
+    };
     let precisions = match options.precision {
         Some(Precisions::F32) => vec![Precision::F32],
         Some(Precisions::F64) => vec![Precision::F64],
@@ -183,7 +188,10 @@ pub fn bench(options: &BenchOptions, out: &mut dyn Write) -> Result<(), Fault> {
         writeln!(out, "{:#}", Json::from(list))?;
     } else {
         out.write_all(table.text().as_bytes())?;
-        writeln!(out, "{NEIGHBOURS} neighbours are aimed at; compositions are the compiled laws to the bit where apart is 0.")?;
+        writeln!(
+            out,
+            "{NEIGHBOURS} neighbours are aimed at; compositions are the compiled laws to the bit where apart is 0."
+        )?;
     }
     Ok(())
 }

@@ -117,7 +117,11 @@ fn counted(counted: Counted) -> &'static str {
 }
 
 fn parameter(parameter: &Parameter) -> (&'static str, String) {
-    let default = parameter.default.map_or_else(|| "(to be given)".to_owned(), |value| value.to_string());
+    let default = match parameter.default {
+        None => "(to be given)".to_owned(),
+        Some(value) if value.is_infinite() => "(no limit)".to_owned(),
+        Some(value) => value.to_string(),
+    };
     ("Parameter", format!("{} = {default} {}: {}", parameter.name, parameter.unit, parameter.about))
 }
 

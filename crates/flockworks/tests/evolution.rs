@@ -151,6 +151,91 @@ fn other_searches_run_and_go_on() {
     }
 }
 
+/// What is asked of `SHARED`: two ways of selection, a contest, questions.
+const ASKED: &str = r#"
+kind = "evolution"
+title = "Asked"
+extends = "flocks.toml"
+
+[follow]
+cohesion = "c_0 * c_0 / c_1"
+
+[vary.selection]
+path = "search.genetic.selection"
+values = ["rank", "roulette"]
+
+[contest]
+worlds = 3
+single = [0.5, 2]
+random = 6
+chosen_in = 2
+without.no_avoidance = ["c_10"]
+
+[[contest.test]]
+y = "fitness"
+between = "who"
+
+[[figure]]
+title = "The end"
+y = ["end", "cohesion_end", "margin"]
+x = "selection"
+
+[[claim]]
+id = "alive"
+text = "Somebody eats"
+number = "meals_end"
+holds = "all(meals_end > 0)"
+
+[[claim]]
+id = "same"
+text = "A contender has one fitness"
+number = "contest.fitness[who = champion, selection = rank] - contest.fitness[who = champion, selection = rank]"
+holds = "contest.fitness[who = single, selection = rank] == contest.fitness[who = single, selection = rank] + 1"
+"#;
+
+#[test]
+fn variants_and_contests_are_the_same_however_they_came_about() {
+    let folder = folder("asked");
+    std::fs::write(folder.join("flocks.toml"), SHARED).unwrap();
+    std::fs::write(folder.join("asked.toml"), ASKED).unwrap();
+    let told = done(&folder, &["check", "asked.toml"]);
+    assert!(told.contains("2 variants of 2 runs"), "{told}");
+    done(&folder, &["run", "asked.toml", "--out", "whole", "--threads", "3"]);
+    done(&folder, &["run", "asked.toml", "--out", "parts", "--threads", "1", "--set", "generations=2"]);
+    done(&folder, &["run", "asked.toml", "--out", "parts", "--threads", "1"]);
+    let contest = |name: &str| std::fs::read(folder.join(name).join("contest.parquet")).unwrap();
+    assert_eq!(tables(&folder.join("whole")), tables(&folder.join("parts")));
+    assert_eq!(contest("whole"), contest("parts"));
+    // a contest cut off in the middle is gone on with
+    let log = folder.join("whole/generations.log");
+    let bytes = std::fs::read(&log).unwrap();
+    std::fs::write(&log, &bytes[..bytes.len() - bytes.len() / 20]).unwrap();
+    done(&folder, &["run", "asked.toml", "--out", "whole"]);
+    assert_eq!(contest("whole"), contest("parts"));
+    assert!(folder.join("whole/champion-2.toml").exists());
+    let page = std::fs::read_to_string(folder.join("whole/report.html")).unwrap();
+    for words in ["Contest: roulette", "no_avoidance", "Alleles of c_3", "does not hold", "Alleles of cohesion"] {
+        assert!(page.contains(words), "{words}");
+    }
+    done(&folder, &["report", "whole"]);
+}
+
+#[test]
+fn a_rival_evolves_for_itself() {
+    let folder = folder("rival");
+    std::fs::write(folder.join("flocks.toml"), SHARED).unwrap();
+    let run = |out: &str, more: &[&str]| {
+        let arguments = ["run", "flocks.toml", "--set", "shared.rival=\"blue\"", "--out", out];
+        done(&folder, &[&arguments, more].concat());
+    };
+    run("whole", &["--threads", "2"]);
+    run("parts", &["--set", "generations=3"]);
+    run("parts", &[]);
+    assert_eq!(tables(&folder.join("whole")), tables(&folder.join("parts")));
+    done(&folder, &["run", "flocks.toml", "--out", "alone"]);
+    assert_ne!(tables(&folder.join("whole")), tables(&folder.join("alone")), "an opponent that evolves is another one");
+}
+
 #[test]
 fn mistakes_are_shown_at_their_place() {
     let folder = folder("mistakes");
@@ -169,10 +254,34 @@ fn mistakes_are_shown_at_their_place() {
         ("search.genetic.mutation_rate=2", "mutation_rate"),
         ("generations=0", "generations"),
         ("trials=2", "shared world is one"),
+        ("shared.rival=\"red\"", "cannot evolve against"),
+        ("shared.rival=\"bleu\"", "cannot evolve against"),
+        ("keep={ fitness = \"sum(meals)\" }", "a column of the tables is called `fitness`"),
+        ("keep={ run = \"sum(meals)\" }", "a column of the tables is called `run`"),
+        ("keep={ c_3 = \"sum(meals)\" }", "`c_3` is in `gene` already"),
+        ("keep={ \"a b\" = \"sum(meals)\" }", "cannot be a name"),
+        ("follow={ x = \"c_12\" }", "did you mean `c_1"),
+        ("vary={ kind = { path = \"runs\", values = [1, 2] } }", "the same for all variants"),
+        ("vary={ x = { values = [1, 2] } }", "the values have no path"),
+        ("contest={ without = { plain = [\"c_44\"] } }", "no gene is called `c_44`"),
+        ("claim=[{ id = \"a\", text = \"b\", holds = \"ent > 0\" }]", "did you mean `end`"),
     ] {
-        let output = flockworks(&folder, &["check", "flocks.toml", "--set", set]);
-        let text = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{set}: {text}");
-        assert!(text.contains(words), "{set}: {text}");
+        refused(&folder, "flocks.toml", set, words);
     }
+    let template = done(&folder, &["new", "evolution"]);
+    std::fs::write(folder.join("milling.toml"), template).unwrap();
+    for (set, words) in [
+        ("gene.generation={ reference = 1, low = 0, high = 2 }", "a column of the tables is called `generation`"),
+        ("gene.milling={ reference = 1, low = 0, high = 2 }", "`milling` is in `gene` already"),
+        ("reading.fitness={ of.metric = { id = \"polarisation\" } }", "a column of the tables is called `fitness`"),
+    ] {
+        refused(&folder, "milling.toml", set, words);
+    }
+}
+
+fn refused(folder: &Path, file: &str, set: &str, words: &str) {
+    let output = flockworks(folder, &["check", file, "--set", set]);
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{set}: {text}");
+    assert!(text.contains(words), "{set}: {text}");
 }

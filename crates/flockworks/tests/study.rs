@@ -352,3 +352,57 @@ fn the_shipped_studies_have_their_cells() {
     let said = text(&check.stdout);
     assert!(said.contains("281 cells, 236 different conditions, 23600 trials"), "{said}{}", text(&check.stderr));
 }
+
+#[test]
+fn statements_that_must_hold_decide_how_it_ends() {
+    let folder = fresh("must-hold");
+    let claim = "holds = \"order[noise = 0, size = small] > order[noise = 4, size = small]\"";
+    for (holds, strength, verdict, code) in [
+        ("min(order) >= 0", "A", "holds", 0),
+        ("max(order) < 0", "A", "does not hold", 1),
+        ("max(order) < 0", "B", "does not hold", 0),
+    ] {
+        let study = file(&folder, &[(claim, &format!("holds = \"{holds}\"\nstrength = \"{strength}\""))]);
+        let out = folder.join(format!("{strength}-{code}"));
+        let ended = ran(&["run", &study, "--out", out.to_str().unwrap(), "--must-hold"]);
+        assert_eq!(ended.status.code(), Some(code), "{holds}: {}", text(&ended.stderr));
+        assert!(text(&ended.stdout).contains(&format!("{verdict:17}falls: Order falls with noise")));
+        // nobody asked: it ends well, whatever came
+        run(&study, &out, &[]);
+    }
+}
+
+#[test]
+fn members_in_a_box_and_other_statistics() {
+    let folder = fresh("statistics");
+    let box_ = "of.inside = { low = [0, 0], high = [5, 100] }";
+    let readings = format!(
+        "[reading.order]\nof.metric = {{ id = \"polarisation\", statistic = \"binder\" }}\n[reading.inside]\n{box_}\n\
+         [reading.all]\nof.inside = {{ low = [0, 0], high = [100, 100], statistic = \"least\" }}"
+    );
+    let kept = "[reading.order]\nof.metric = { id = \"polarisation\" }";
+    let holds = "holds = \"order[noise = 0, size = small] > order[noise = 4, size = small]\"";
+    // everyone is in the box of everything, some are in its part, and a fully ordered flock has the cumulant 2/3
+    let claim = "strength = \"A\"\nholds = \"min(all) = 20 and max(all) = 40 and min(inside) > 0 and max(inside) < 40 and \
+                 max(order) < 0.667\"";
+    let study = file(&folder, &[(kept, &readings), (holds, claim)]);
+    let out = folder.join("out");
+    let ended = run(&study, &out, &["--must-hold"]);
+    assert!(text(&ended.stdout).contains("holds            falls"), "{}", text(&ended.stdout));
+    let flat = file(&folder, &[(kept, "[reading.order]\nof.inside = { low = [0], high = [1] }")]);
+    refused(&["check", &flat], &["`low` has 1 coordinates in 2 dimensions"]);
+}
+
+#[test]
+fn the_shipped_results_of_the_literature_are_studies() {
+    let folder = format!("{}/../../studies/literature", env!("CARGO_MANIFEST_DIR"));
+    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let studies: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
+    assert!(studies.len() > 10);
+    for study in studies {
+        let check = ran(&["check", study.to_str().unwrap()]);
+        assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
+        let text = std::fs::read_to_string(&study).unwrap();
+        assert!(text.contains("strength = \"A\"") && text.contains("[[figure]]"), "{}", study.display());
+    }
+}

@@ -1,10 +1,13 @@
 //! `lab`: files that say what they are, the run store, executors, reports. It knows nothing of HTTP.
 
+pub mod design;
+pub mod environment;
 pub mod evolution;
 pub mod explain;
 pub mod file;
 pub mod gallery;
 pub mod live;
+pub mod map;
 pub mod report;
 pub mod run;
 pub mod scenario;

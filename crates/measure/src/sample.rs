@@ -29,7 +29,8 @@ pub struct Sample<const D: usize> {
     space: Space<f64, D>,
     positions: Vec<Vector<f64, D>>,
     velocities: Vec<Option<Vector<f64, D>>>,
-    bodies: Vec<Option<Vector<f64, D>>>,
+    /// The known directions of bodies.
+    bodies: Vec<Vector<f64, D>>,
     /// Longitude and latitude, degrees; empty in the plane.
     places: Vec<[f64; 2]>,
     kept: Kept<D>,
@@ -106,11 +107,14 @@ impl<const D: usize> Sample<D> {
             Ground::Plane(space) => *space,
             Ground::Globe => Space::open(),
         };
+        let members = members.into_iter();
+        self.positions.reserve(members.size_hint().0);
+        self.velocities.reserve(members.size_hint().0);
         for (position, velocity, body) in members {
             if position.finite() {
                 self.positions.push(self.space.place(position));
                 self.velocities.push(Some(velocity).filter(|v| v.finite()));
-                self.bodies.push(body);
+                self.bodies.extend(body);
             }
         }
         if *ground == Ground::Globe {
@@ -125,18 +129,30 @@ impl<const D: usize> Sample<D> {
     /// The members in these rows of a frame, in any order. A row given twice counts once; a row that the frame does
     /// not have is left out.
     pub fn of<R: Real>(frame: &Frame<'_, R, D>, members: &[usize]) -> Self {
+        let mut sample = Self::empty();
+        sample.read(frame, members);
+        sample
+    }
+    /// Puts the members in these rows of a frame in place of these, as [`Sample::of`] does. The memory is used again.
+    pub fn read<R: Real>(&mut self, frame: &Frame<'_, R, D>, members: &[usize]) {
         let columns = frame.columns;
-        let mut rows: Vec<usize> = members.iter().copied().filter(|&row| row < columns.len()).collect();
-        rows.sort_unstable_by_key(|&row| (columns.id[row], row));
-        rows.dedup();
+        let there = |row: &usize| *row < columns.len();
+        let rows = if members.iter().all(there) && members.is_sorted_by(|&a, &b| columns.id[a] < columns.id[b]) {
+            Cow::Borrowed(members)
+        } else {
+            let mut rows: Vec<usize> = members.iter().copied().filter(there).collect();
+            rows.sort_unstable_by_key(|&row| (columns.id[row], row));
+            rows.dedup();
+            Cow::Owned(rows)
+        };
         let wide = |v: Vector<R, D>| Vector(v.0.map(R::to_f64));
         let edges = frame.space.edges.map(|edge| match edge {
             Edge::Open => Edge::Open,
             Edge::Periodic(length) => Edge::Periodic(length.to_f64()),
             Edge::Walls(length) => Edge::Walls(length.to_f64()),
         });
-        let member = |row| (wide(columns.position(row)), wide(columns.velocity(row)));
-        Self::new(Space { edges }, rows.into_iter().map(member))
+        let member = |&row| (wide(columns.position(row)), wide(columns.velocity(row)), None);
+        self.fill(&Ground::Plane(Space { edges }), rows.iter().map(member));
     }
     /// Everyone in a frame.
     pub fn whole<R: Real>(frame: &Frame<'_, R, D>) -> Self {
@@ -191,7 +207,7 @@ impl<const D: usize> Sample<D> {
 
     /// The known directions of bodies, unit vectors.
     pub fn bodies(&self) -> impl Iterator<Item = Vector<f64, D>> {
-        self.bodies.iter().flatten().copied()
+        self.bodies.iter().copied()
     }
     /// Longitude and latitude of the members, degrees, `[len]`; empty in the plane.
     pub fn places(&self) -> &[[f64; 2]] {

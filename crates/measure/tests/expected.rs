@@ -1,4 +1,4 @@
-//! Metrics of real tracks and of synthetic groups, against values computed with SciPy, scikit-learn and geographiclib.
+//! Metrics of real tracks and of synthetic groups, against values computed with SciPy, scikit-learn, geographiclib and PedPy.
 //!
 //! `data/README.md` tells where the tracks come from.
 
@@ -317,6 +317,69 @@ fn baboons_on_the_globe() -> Fine {
         }
         let plane = sample.hull().ok_or("no hull")?.area;
         close("hull in the local plane", plane, expected["hull_area_local_plane_m2"].as_f64().ok_or("none")?, 1e-4);
+    }
+    Ok(())
+}
+
+/// A metric over time with these parameters.
+fn over(tracks: &Tracks<2>, id: &str, parameters: &[(&str, f64)]) -> Result<Listing, Box<dyn Error>> {
+    let mut metric = over_time::find::<2>(id)?;
+    for &(name, value) in parameters {
+        metric.set(name, value)?;
+    }
+    Ok(metric.on(tracks)?)
+}
+
+#[test]
+fn people_through_a_door_as_pedpy_counts_them() -> Fine {
+    let expected = json("pedestrians_pedpy.json")?;
+    let tracks = tracks(&text("pedestrians_bottleneck_line.csv")?, 25.0)?;
+    let door = [("x1", -0.4), ("y1", 0.0), ("x2", 0.4), ("y2", 0.0)];
+    let crossings = over(&tracks, "line_crossings", &door)?;
+    let frames = expected["crossing_frame_by_id"].as_object().ok_or("no crossings")?;
+    assert_eq!(crossings.len(), frames.len());
+    for (name, frame) in frames {
+        let individual = tracks.names().iter().position(|other| other == name).ok_or("nobody")?;
+        let row = crossings.columns[0].iter().position(|&other| other == individual as f64).ok_or("no crossing")?;
+        assert_eq!(Some(crossings.columns[1][row]), frame.as_f64(), "{name}");
+    }
+    let flow = over(&tracks, "flow", &[door.as_slice(), &[("window", 4.0), ("speed_frames", 5.0)]].concat())?;
+    close("flow of all", flow.columns[3][0], expected["mean_flow"].as_f64().ok_or("no flow")?, 1e-9);
+    for (k, window) in expected["windows"].as_array().ok_or("no windows")?.iter().enumerate() {
+        let number = |key: &str| window[key].as_f64().ok_or_else(|| key.to_owned());
+        close(&format!("flow in window {k}"), flow.columns[3][k + 1], number("flow")?, 1e-9);
+        close(&format!("speed in window {k}"), flow.columns[5][k + 1], number("mean_speed")?, 1e-9);
+    }
+    Ok(())
+}
+
+#[test]
+fn people_before_a_door_as_pedpy_counts_them() -> Fine {
+    let expected = json("pedestrians_pedpy.json")?;
+    let tracks = tracks(&text("pedestrians_bottleneck_area.csv")?, 25.0)?;
+    let area = [("x1", -0.4), ("y1", 0.5), ("x2", 0.4), ("y2", 1.3)];
+    // the wall with the door is at y = 0
+    let floor = over(&tracks, "voronoi_density", &[area.as_slice(), &[("floor_y1", 0.0)]].concat())?;
+    let open = over(&tracks, "voronoi_density", &area)?;
+    let classic = over(&tracks, "classic_density", &area)?;
+    for (row, &frame) in tracks.frames().iter().enumerate() {
+        let number = |key: &str| expected[key][frame.to_string()].as_f64();
+        close("Voronoi density", floor.columns[2][row], number("voronoi_density").ok_or("none")?, 1e-9);
+        if let Some(number) = number("classic_density") {
+            close("classic density", classic.columns[2][row], number, 1e-9);
+        }
+    }
+    // one cell reaches the wall in the first frame, and none in the others
+    assert!(deviation(open.columns[2][0], floor.columns[2][0]) > 1e-6);
+    close("Voronoi density without the wall", open.columns[2][1], floor.columns[2][1], 1e-9);
+    for (name, speed) in expected["speeds_at_500"].as_object().ok_or("no speeds")? {
+        let individual = tracks.names().iter().position(|other| other == name).ok_or("nobody")?;
+        let place = tracks.position(tracks.row(1, individual as u32).ok_or("not there")?).0;
+        let around =
+            [("x1", place[0] - 0.01), ("y1", place[1] - 0.01), ("x2", place[0] + 0.01), ("y2", place[1] + 0.01)];
+        // every fifth frame is in the table
+        let found = over(&tracks, "speed_in_area", &[around.as_slice(), &[("speed_frames", 1.0)]].concat())?;
+        close(&format!("speed of {name}"), found.columns[2][1], speed.as_f64().ok_or("none")?, 1e-9);
     }
     Ok(())
 }

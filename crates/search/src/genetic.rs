@@ -20,6 +20,14 @@ pub struct Operators {
     pub elite: usize,
 }
 
+impl Operators {
+    /// The parents of the next generation, two for each offspring, by their places among the candidates.
+    pub fn parents(&self, scores: &[f64], seed: u64, generation: u64) -> Vec<usize> {
+        let offspring = scores.len().saturating_sub(self.elite);
+        self.selection.pick(&finite(scores), 2 * offspring, &Draws::new(seed, generation))
+    }
+}
+
 impl Default for Operators {
     /// Rank selection, one-point crossover, a creeping gene in a tenth of the offspring, and no elite.
     fn default() -> Self {
@@ -113,8 +121,7 @@ impl Genetic {
         order.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]));
         let mut next: Vec<Vec<f64>> =
             order.iter().take(self.operators.elite).map(|&k| self.candidates[k].clone()).collect();
-        let offspring = self.candidates.len() - next.len();
-        let parents = self.operators.selection.pick(&scores, 2 * offspring, &draws);
+        let parents = self.operators.parents(&scores, self.seed, self.generation);
         for (k, pair) in parents.chunks_exact(2).enumerate() {
             let [first, second] = [pair[0], pair[1]].map(|parent| &self.candidates[parent]);
             let mut genes = self.operators.crossover.cross(first, second, k as u64, &draws);

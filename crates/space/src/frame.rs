@@ -56,6 +56,24 @@ impl<R: Real, const D: usize> Columns<R, D> {
         }
         rows
     }
+    /// Writes all rows into columns of the same shape, in the order of their ids.
+    pub fn write_by_id(&self, to: &mut Self) {
+        let put = |to: &mut [R], from: &[R]| {
+            for (&id, &value) in self.id[..self.agents].iter().zip(from) {
+                to[id as usize] = value;
+            }
+        };
+        for a in 0..D {
+            put(&mut to.position[a], &self.position[a]);
+            put(&mut to.velocity[a], &self.velocity[a]);
+        }
+        for (to, from) in to.state.iter_mut().zip(&self.state) {
+            put(to, from);
+        }
+        for (id, to) in to.id[..self.agents].iter_mut().enumerate() {
+            *to = id as u32;
+        }
+    }
     /// Position of a row.
     #[inline(always)]
     pub fn position(&self, row: usize) -> Vector<R, D> {

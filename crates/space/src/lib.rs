@@ -4,6 +4,7 @@
 //! search, random draws that depend on their purpose alone, and the read-only [`Frame`] of columns that metrics,
 //! recorders and pages read. It knows no model, no file and no clock.
 
+pub mod angles;
 pub mod boundary;
 pub mod exact;
 mod frame;

@@ -90,7 +90,7 @@ struct Placed<R, const D: usize> {
     index: u32,
     opaque: bool,
     shape: Shape<R, D>,
-    /// A ball that holds all of it; infinite where none does.
+    /// A ball that holds all of it, with more than the rounding errors of telling so; infinite where none does.
     centre: Vector<R, D>,
     around: R,
 }
@@ -104,12 +104,13 @@ impl<R: Real, const D: usize> Placed<R, D> {
             _ if low.finite() && high.finite() => (middle, (high - low).length() * R::HALF),
             _ => (Vector::ZERO, R::INFINITY),
         };
+        let around = around * R::of(1.0 + 1e-4) + epsilon::<R>() * R::of(64.0) * centre.length();
         Self { index, opaque, shape, centre, around }
     }
-    /// Whether it is certainly farther from `p` than `reach`; rounding errors are far smaller than what is added.
+    /// Whether it is certainly farther from `p` than `reach`.
     #[inline(always)]
     fn is_far(&self, p: Vector<R, D>, reach: R) -> bool {
-        let within = (self.around + reach) * R::of(1.0 + 1e-4) + epsilon::<R>() * R::of(64.0) * self.centre.length();
+        let within = self.around + reach * R::of(1.0 + 1e-4);
         (p - self.centre).length_squared() > within * within
     }
 }
@@ -452,8 +453,9 @@ fn images<R: Real, const D: usize>(
 struct Cells<R, const D: usize> {
     low: Vector<R, D>,
     high: Vector<R, D>,
-    /// Sides of a cell.
+    /// Sides of a cell, and their reciprocals.
     size: Vector<R, D>,
+    per_size: Vector<R, D>,
     dimensions: [usize; D],
     /// Where each cell's numbers start in `entries`, and after the last cell where they end.
     starts: Vec<u32>,
@@ -508,6 +510,7 @@ impl<R: Real, const D: usize> Cells<R, D> {
             low,
             high,
             size,
+            per_size: Vector(size.0.map(|side| R::ONE / side)),
             dimensions,
             starts: vec![0; dimensions.iter().product::<usize>() + 1],
             entries: Vec::new(),
@@ -559,7 +562,11 @@ impl<R: Real, const D: usize> Cells<R, D> {
 
     /// Coordinates of the cell nearest to `p`.
     fn coordinates(&self, p: Vector<R, D>) -> [usize; D] {
-        core::array::from_fn(|a| ((p[a] - self.low[a]) / self.size[a]).index().min(self.dimensions[a] - 1))
+        let mut place = [0; D];
+        for a in 0..D {
+            place[a] = ((p[a] - self.low[a]) * self.per_size[a]).index().min(self.dimensions[a] - 1);
+        }
+        place
     }
 
     fn number(&self, place: [usize; D]) -> usize {

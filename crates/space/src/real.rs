@@ -44,6 +44,10 @@ pub trait Real:
     const INFINITY: Self;
     /// Length at or below which a vector counts as the zero vector: 1e-12.
     const TINY: Self;
+    /// A quarter turn in three parts that add up to it: products of the first two with small whole numbers are exact.
+    const QUARTER_TURN: [Self; 3];
+    /// A number so large that whole numbers stand between it and the next: what is added to it is rounded to one.
+    const TO_WHOLE: Self;
     /// `"f32"` or `"f64"`.
     const NAME: &'static str;
     /// The lanes of the portable instruction level.
@@ -126,7 +130,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($t:ident, $name:literal, $avx2:ty, $avx512:ty, $portable:ty,
+    ($t:ident, $name:literal, $avx2:ty, $avx512:ty, $portable:ty, $quarter:expr, $whole:literal,
      $sin:ident $cos:ident $sincos:ident $atan2:ident $acos:ident $asin:ident $exp:ident $log:ident $pow:ident) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
@@ -136,6 +140,8 @@ macro_rules! real {
             const TAU: Self = core::f64::consts::TAU as $t;
             const INFINITY: Self = $t::INFINITY;
             const TINY: Self = 1e-12;
+            const QUARTER_TURN: [Self; 3] = $quarter;
+            const TO_WHOLE: Self = $whole;
             const NAME: &'static str = $name;
             type Portable = $portable;
             type Avx2 = $avx2;
@@ -225,6 +231,8 @@ macro_rules! real {
 }
 
 real!(f32, "f32", crate::lanes::F32Avx2, crate::lanes::F32Avx512, Wide<f32, 8>,
+    [1.570_312_5, 4.837_513e-4, 7.549_79e-8], 12_582_912.0,
     sinf cosf sincosf atan2f acosf asinf expf logf powf);
 real!(f64, "f64", crate::lanes::F64Avx2, crate::lanes::F64Avx512, Wide<f64, 4>,
+    [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21], 6_755_399_441_055_744.0,
     sin cos sincos atan2 acos asin exp log pow);

@@ -2,7 +2,9 @@
 //!
 //! A law is a [`Model`]: it sees itself ([`Me`]), the detected members with their named sets ([`Percepts`]), and its random
 //! quantities ([`Draws`]), and returns a [`Motion`]. A law that sums neighbour by neighbour is written as a [`Stream`]
-//! instead, once, for plain numbers and vector lanes alike; [`Summed`] makes a `Model` of it, by the same code.
+//! instead, once, for plain numbers and vector lanes alike; [`Summed`] makes a `Model` of it, by the same code. A law whose
+//! agents need lists, but end in arithmetic that several of them can do side by side, is written as [`Abreast`], and
+//! [`Single`] makes a `Model` of it.
 
 use crate::card::Card;
 use crate::parameters::{Parameters, Scalar};
@@ -298,8 +300,8 @@ impl<R, const D: usize> Default for Trace<R, D> {
 /// So many percepts stand in a block.
 pub const BLOCK: usize = 16;
 
-/// The named sets of a block of percepts: bit `l` of number `s` is set where percept `l` of the block is in set `s`.
-pub type Marks = [u16; RINGS];
+/// The named sets by blocks of percepts: bit `l` of number `b` of set `s` is set where percept `l` of block `b` is in it.
+pub type Marks<'a> = [&'a [u16]; RINGS];
 
 /// The detected members of one agent, as columns, with the named sets that selection put them in.
 #[derive(Clone, Copy)]
@@ -313,11 +315,26 @@ pub struct Percepts<'a, R, const D: usize> {
     /// Bit `s` is set for members of named set `s`. Empty where a law asks for marks.
     pub sets: &'a [u32],
     /// The named sets by blocks of percepts, for laws that ask for marks.
-    pub marks: &'a [Marks],
+    pub marks: Marks<'a>,
     /// Where velocities and declared columns of the percepts stand: the state itself, or what was sensed of it.
     pub others: &'a Columns<R, D>,
     /// Column in `others` of each of the model's declared columns.
     pub columns: &'a [usize],
+    /// Whether percept `k` is row `k` of `others`. Only for laws that ask for marks.
+    pub whole: bool,
+    /// How laws that ask for marks may have to do with less; they use [`Self::at`] and [`Self::several`].
+    pub rough: Option<Rough<'a, R, D>>,
+}
+
+/// Percepts that are whole, and of which only squared distances are written down, roughly.
+#[derive(Clone, Copy)]
+pub struct Rough<'a, R, const D: usize> {
+    /// From where displacements are taken.
+    pub from: Vector<R, D>,
+    /// Squared distances, wrong by less than `margin` where percepts are in a set.
+    pub squared: &'a [f32],
+    /// See there.
+    pub margin: f32,
 }
 
 impl<R: Real, const D: usize> Percepts<'_, R, D> {
@@ -335,6 +352,36 @@ impl<R: Real, const D: usize> Percepts<'_, R, D> {
     #[inline(always)]
     pub fn offset(&self, k: usize) -> Vector<R, D> {
         Vector(core::array::from_fn(|a| self.offset[a][k]))
+    }
+    /// Number of blocks of marks.
+    #[inline(always)]
+    pub fn blocks(&self) -> usize {
+        self.marks[0].len()
+    }
+    /// Displacement from me to percept `k`, and its square, whether written down or not.
+    #[inline(always)]
+    pub fn at(&self, k: usize) -> (Vector<R, D>, R) {
+        let Some(Rough { from, .. }) = self.rough else { return (self.offset(k), self.squared[k]) };
+        let mut offset = Vector::ZERO;
+        for a in 0..D {
+            offset.0[a] = self.others.position[a][k] - from.0[a];
+        }
+        (offset, dot::<R, R, D>(&offset.0, &offset.0))
+    }
+    /// The same for the percepts from number `first` on, one per lane. Room for a block of percepts is always there.
+    #[inline(always)]
+    pub fn several<L: Lanes<R>>(&self, first: usize) -> ([L; D], L) {
+        let mut offset = [L::splat(R::ZERO); D];
+        let Some(Rough { from, .. }) = self.rough else {
+            for a in 0..D {
+                offset[a] = L::load(&self.offset[a][first..]);
+            }
+            return (offset, L::load(&self.squared[first..]));
+        };
+        for a in 0..D {
+            offset[a] = L::load(&self.others.position[a][first..]) - L::splat(from.0[a]);
+        }
+        (offset, dot(&offset, &offset))
     }
     /// Distance of percept `k`.
     #[inline(always)]
@@ -490,9 +537,7 @@ pub struct Start<'a, R, const D: usize> {
 
 /// A law as the engine sees it.
 pub trait Model<R: Scalar, const D: usize>: Send + Sync + 'static {
-    /// Whether the law reads its named sets (three at most) as [`Marks`], and is worth compiling for wide vector
-    /// instructions. It is then given percepts that may be in no set, and may be anybody: it must look at none but those
-    /// marked. What it computes must depend on who is in a set, in their order, and not on who stands between them.
+    /// Whether the law reads its named sets (three at most) as [`Marks`]; see [`Abreast`].
     const MARKS: bool = false;
     /// The named sets of its selection stage, at most 32, with their default perception functions.
     fn sets(&self) -> Vec<NamedSet<R, D>>;
@@ -503,6 +548,93 @@ pub trait Model<R: Scalar, const D: usize>: Send + Sync + 'static {
     /// Called with the new values of the declared columns where the body moves otherwise than wanted, for laws that keep
     /// headings in columns of their own.
     fn performed(&self, _own: &mut [R], _velocity: Vector<R, D>) {}
+}
+
+/// A law in two parts: what an agent wishes, found by each for itself, and what the wish makes of its motion, computed for
+/// several agents abreast.
+///
+/// It reads its named sets as [`Marks`]. It is given percepts that may be in no set, and may be anybody: it must look at
+/// none but those marked. What it computes must depend on who is in a set, in their order, and not on who stands between
+/// them.
+pub trait Abreast<R: Scalar, const D: usize>: Send + Sync + 'static {
+    /// What an agent wishes.
+    type Wish: Copy + Default + Send + Sync;
+    /// The named sets, three at most.
+    fn sets(&self) -> Vec<NamedSet<R, D>>;
+    /// Fills in what an initial state leaves out.
+    fn complete(&self, _start: &mut Start<'_, R, D>) {}
+    /// The wish of an agent. Declared columns that only depend on it are written here.
+    fn wish(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Self::Wish;
+    /// The motions of the agents from number `first` on, one per lane.
+    fn conclude<L: Lanes<R>>(&self, first: usize, wishes: &[Self::Wish; WIDEST], agents: &mut Agents<R, D>);
+    /// As [`Model::performed`].
+    fn performed(&self, _own: &mut [R], _velocity: Vector<R, D>) {}
+}
+
+/// Some agents abreast, as columns.
+pub struct Agents<R, const D: usize> {
+    /// Velocities before the step, and then those wanted after it.
+    pub velocity: [[R; WIDEST]; D],
+    /// Displacements wanted in the step.
+    pub displacement: [[R; WIDEST]; D],
+    /// Own values of the model's declared columns, in their order; what is written here is the next state.
+    pub own: Vec<[R; WIDEST]>,
+}
+
+impl<R: Real, const D: usize> Agents<R, D> {
+    /// Room for agents with so many declared columns.
+    pub fn new(columns: usize) -> Self {
+        let nothing = [[R::ZERO; WIDEST]; D];
+        Self { velocity: nothing, displacement: nothing, own: vec![[R::ZERO; WIDEST]; columns] }
+    }
+    /// Puts an agent into place `k`.
+    #[inline(always)]
+    pub fn put(&mut self, k: usize, velocity: Vector<R, D>, own: &[R]) {
+        for a in 0..D {
+            self.velocity[a][k] = velocity.0[a];
+        }
+        for (column, &value) in self.own.iter_mut().zip(own) {
+            column[k] = value;
+        }
+    }
+    /// The wanted motion of the agent in place `k`, and its declared columns.
+    #[inline(always)]
+    pub fn take(&self, k: usize, own: &mut [R]) -> Motion<R, D> {
+        for (value, column) in own.iter_mut().zip(&self.own) {
+            *value = column[k];
+        }
+        let mut motion = Motion { velocity: Vector::ZERO, displacement: Vector::ZERO };
+        for a in 0..D {
+            motion.velocity.0[a] = self.velocity[a][k];
+            motion.displacement.0[a] = self.displacement[a][k];
+        }
+        motion
+    }
+}
+
+/// A law for agents abreast, given one agent.
+pub struct Single<T>(pub T);
+
+impl<R: Scalar, const D: usize, T: Abreast<R, D>> Model<R, D> for Single<T> {
+    const MARKS: bool = true;
+
+    fn sets(&self) -> Vec<NamedSet<R, D>> {
+        self.0.sets()
+    }
+    fn complete(&self, start: &mut Start<'_, R, D>) {
+        self.0.complete(start);
+    }
+    fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D> {
+        let mut wishes = [T::Wish::default(); WIDEST];
+        wishes[0] = self.0.wish(me, seen, draws);
+        let mut alone = Agents::new(me.own.len());
+        alone.put(0, me.velocity, me.own);
+        self.0.conclude::<R>(0, &wishes, &mut alone);
+        alone.take(0, me.own)
+    }
+    fn performed(&self, own: &mut [R], velocity: Vector<R, D>) {
+        self.0.performed(own, velocity);
+    }
 }
 
 /// One agent per lane, deciding.

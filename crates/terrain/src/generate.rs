@@ -77,7 +77,7 @@ impl Candidates for Grid<'_> {
 }
 
 /// The values at a place of an odometer, the last axis fastest; `None` beyond the last.
-fn odometer(axes: &[Vec<f64>], number: u64) -> Option<Vec<f64>> {
+pub fn odometer(axes: &[Vec<f64>], number: u64) -> Option<Vec<f64>> {
     let mut left = number;
     let mut values = vec![0.0; axes.len()];
     for (value, axis) in values.iter_mut().zip(axes).rev() {

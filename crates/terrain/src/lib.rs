@@ -33,6 +33,7 @@ pub mod geometry;
 pub mod grammar;
 pub mod grammars;
 pub mod hierarchy;
+pub mod perturb;
 pub mod posts;
 pub mod primitives;
 pub mod reduction;

@@ -17,6 +17,7 @@ mod docs;
 mod failure;
 mod independent;
 mod list;
+mod literature;
 mod new_model;
 mod outcome;
 mod rustfmt;
@@ -32,6 +33,8 @@ cargo xtask TASK
 
   check            formatting, clippy, and the rules of the house
   test             check, then every test, of pages in a browser and against SciPy too; the last line is \"N passed, N failed\"
+  test --literature
+                   published results made again, by the studies of studies/literature; minutes
   bench [ARGS]     flockworks bench, release build; the arguments are passed on
   docs [--check]   write docs/models from the code, or only say whether it is up to date
   new-model NAME   write a model file and its line in the list of models
@@ -61,6 +64,7 @@ fn run(arguments: &[String]) -> Result<(), Failure> {
         }
         ["check"] => check::check(&Workspace::find()?),
         ["test"] => test::test(&Workspace::find()?),
+        ["test", "--literature"] => literature::test(&Workspace::find()?),
         ["bench", rest @ ..] => bench(&Workspace::find()?, rest),
         ["docs"] => docs::write(&Workspace::find()?),
         ["docs", "--check"] => docs::compare(&Workspace::find()?),

@@ -7,8 +7,8 @@ use crate::view::ViewOptions;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lab::evolution::execute::{self, CHAMPION, REPORT};
 use lab::evolution::form::Evolution as Form;
-use lab::evolution::tables::{CANDIDATES, CHAMPIONS, GENERATIONS};
-use lab::evolution::{self, Plan};
+use lab::evolution::tables::{CANDIDATES, CHAMPIONS, CONTEST, GENERATIONS};
+use lab::evolution::{self, Variants};
 use lab::file::write::toml;
 use serde_json::Value as Json;
 use std::io::{IsTerminal, Write};
@@ -43,13 +43,15 @@ impl Kind for Evolution {
         lab::file::reference::reference::<Form>("Evolution files", &lead)
     }
     fn check(&self, input: &Input) -> Result<String, Fault> {
-        let plan = read(input, false)?;
+        let variants = read(input, false)?;
+        let plan = variants.first();
         let (runs, genes) = (plan.form.runs, plan.axes.len());
-        Ok(format!(
-            "{genes} genes, {} generations, {runs} {}",
-            plan.generations,
-            if runs == 1 { "run" } else { "runs" }
-        ))
+        let runs = format!("{runs} {}", if runs == 1 { "run" } else { "runs" });
+        let each = match variants.plans.len() {
+            1 => runs,
+            several => format!("{several} variants of {runs}"),
+        };
+        Ok(format!("{genes} genes, {} generations, {each}", plan.generations))
     }
     fn run(&self, mut input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
         if let Some(option) = options.study.given() {
@@ -58,23 +60,23 @@ impl Kind for Evolution {
         if let Some(seed) = options.seed {
             input.sets.push(format!("seed={seed}"));
         }
-        let plan = read(&input, options.quick)?;
+        let variants = read(&input, options.quick)?;
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = options.threads.unwrap_or(cores);
         run::listen()?;
         let mut progress = Progress::new();
-        let outcome = execute::run(&plan, threads, options.out.as_deref(), PROGRAM, &mut progress);
+        let outcome = execute::run(&variants, threads, options.out.as_deref(), PROGRAM, &mut progress);
         progress.bar.finish_and_clear();
         let outcome = outcome?;
         if outcome.left > 0 {
             writeln!(out, "stopped, {} generations are left; the same command continues it", outcome.left)?;
             return Ok(INTERRUPTED);
         }
-        writeln!(out, "{}", plan.form.title)?;
-        for (k, score) in outcome.champions.iter().enumerate() {
+        writeln!(out, "{}", variants.first().form.title)?;
+        for (run, score) in &outcome.champions {
             match score {
-                Some(score) => writeln!(out, "  run {}: champion with a fitness of {score:.6}", k + 1)?,
-                None => writeln!(out, "  run {}: no candidate had a fitness", k + 1)?,
+                Some(score) => writeln!(out, "  {run}: champion with a fitness of {score:.6}")?,
+                None => writeln!(out, "  {run}: no candidate had a fitness")?,
             }
         }
         if outcome.generations > 0 {
@@ -88,12 +90,13 @@ impl Kind for Evolution {
     }
     fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
         // the world as it is with the references: a champion's is a scenario file of its own
-        let plan = read(input, false)?;
-        Ok((input.name.clone(), toml(&plan.tree)))
+        let variants = read(input, false)?;
+        Ok((input.name.clone(), toml(&variants.first().tree)))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
-        execute::of_folder(folder)?;
-        Ok(vec![GENERATIONS, CANDIDATES, CHAMPIONS])
+        let variants = execute::of_folder(folder)?;
+        let contest = variants.first().form.contest.is_some().then_some(CONTEST);
+        Ok([GENERATIONS, CANDIDATES, CHAMPIONS].into_iter().chain(contest).collect())
     }
     fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         execute::report_again(folder, PROGRAM)?;
@@ -110,7 +113,7 @@ fn told(folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
     Ok(())
 }
 
-fn read(input: &Input, quick: bool) -> Result<Plan, Fault> {
+fn read(input: &Input, quick: bool) -> Result<Variants, Fault> {
     let mut load = |path: &str| text_of(path).map_err(|fault| fault.to_string());
     evolution::read(&input.name, &input.text, &input.sets, quick, &mut load).map_err(|problems| shown(&problems))
 }

@@ -1,7 +1,10 @@
 //! The kinds of files that can be run: one file and one line of the list each. The verbs `run`, `check`, `new`, `schema`,
 //! `view` and `report` are made from the list.
 
+mod design;
 mod evolution;
+mod map;
+mod progress;
 mod scenario;
 pub mod study;
 mod tracks;
@@ -18,7 +21,8 @@ use std::io::{IsTerminal, Write};
 use std::path::Path;
 
 /// Every kind, in the order in which they are named.
-pub const LIST: &[&dyn Kind] = &[&scenario::Scenario, &study::Study, &evolution::Evolution, &tracks::Tracks];
+pub const LIST: &[&dyn Kind] =
+    &[&scenario::Scenario, &study::Study, &evolution::Evolution, &design::Design, &map::Map, &tracks::Tracks];
 
 /// A file that was named on the command line.
 #[derive(Clone, Debug)]

@@ -7,8 +7,9 @@ use crate::view::ViewOptions;
 use clap::Args;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lab::file::{Node, Tree, write::toml};
+use lab::study::claims::{Judgement, Verdict};
 use lab::study::execute::{self, CELLS, End, REPORT, Selection, TRIALS};
-use lab::study::form::Study as Form;
+use lab::study::form::{Strength, Study as Form};
 use lab::study::{self, Plan, claims, trial};
 use serde_json::Value as Json;
 use std::io::{IsTerminal, Write};
@@ -37,6 +38,9 @@ pub struct StudyOptions {
     /// The trial of `--cell`.
     #[arg(long, value_name = "N", requires = "cell")]
     pub trial: Option<usize>,
+    /// Exit with 1 unless every statement that must hold (strength A) does.
+    #[arg(long)]
+    pub must_hold: bool,
 }
 
 impl StudyOptions {
@@ -49,6 +53,7 @@ impl StudyOptions {
             (self.shard.is_some(), "--shard"),
             (self.cell.is_some(), "--cell"),
             (self.trial.is_some(), "--trial"),
+            (self.must_hold, "--must-hold"),
         ];
         given.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
     }
@@ -134,7 +139,11 @@ impl Kind for Study {
         } else {
             writeln!(out, "all trials were there already")?;
         }
-        told(&outcome.folder, out)
+        stated(&outcome.judgements, out)?;
+        told(&outcome.folder, out)?;
+        let must = |own: &&Judgement| own.claim.strength == Strength::A && own.claim.holds.is_some();
+        let held = outcome.judgements.iter().filter(must).all(|own| own.judged.verdict == Verdict::Holds);
+        Ok(u8::from(own.must_hold && !held))
     }
     fn view(&self, input: &Input, options: &ViewOptions) -> Result<(String, String), Fault> {
         let plan = read(input, false)?;
@@ -151,6 +160,15 @@ impl Kind for Study {
         execute::report_again(folder, PROGRAM)?;
         told(folder, out).map(|_| ())
     }
+}
+
+/// The statements, each with its verdict.
+fn stated(judgements: &[Judgement], out: &mut dyn Write) -> Result<(), Fault> {
+    for Judgement { part, claim, judged } in judgements {
+        let part = if part.is_empty() { String::new() } else { format!("{part}.") };
+        writeln!(out, "{:17}{part}{}: {}", judged.verdict.words(), claim.id, claim.text)?;
+    }
+    Ok(())
 }
 
 fn told(folder: &Path, out: &mut dyn Write) -> Result<u8, Fault> {

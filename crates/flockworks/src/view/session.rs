@@ -17,11 +17,11 @@ pub(super) enum Outgoing {
     Frame(Vec<u8>),
 }
 
-/// Frames the page may not have seen yet.
+/// Frames the page may not have seen yet; one more where it asked for something.
 const UNSEEN: u32 = 2;
 /// Time given to stepping before the page is looked after again.
 const SLICE: Duration = Duration::from_millis(12);
-/// Time between two messages about speed.
+/// Longest time between two messages about pace.
 const STATUS: Duration = Duration::from_millis(250);
 /// Share of the time that measuring may take.
 const MEASURING: f64 = 0.1;
@@ -47,14 +47,19 @@ pub(super) struct Session {
     focus: Option<u32>,
     number: u32,
     seen: u32,
-    /// Whether the page does not know the moment shown.
+    /// Whether the page does not know the moment shown, and whether it asked for what it does not know.
     stale: bool,
+    asked: bool,
     /// The moment that was last explained: step and agent.
     explained: Option<(u64, u32)>,
     items: Option<Json>,
     clock: Instant,
-    told: Instant,
-    told_step: u64,
+    /// Whether the page does not know whether it plays, and how fast.
+    untold: bool,
+    /// When, and at which step, it was last found out how fast steps are made, and how fast that was.
+    timed: Instant,
+    timed_step: u64,
+    reached: f64,
     measured: Instant,
     /// How long measuring took the last time.
     measuring: Duration,
@@ -80,11 +85,14 @@ impl Session {
             number: 0,
             seen: 0,
             stale: false,
+            asked: false,
             explained: None,
             items: None,
             clock: now,
-            told: now,
-            told_step: 0,
+            untold: false,
+            timed: now,
+            timed_step: 0,
+            reached: 0.0,
             measured: now,
             measuring: Duration::ZERO,
             lost: false,
@@ -157,6 +165,8 @@ impl Session {
             return Ok(());
         }
         let Some(shown) = &mut self.shown else { return Err(wanted("nothing is opened yet")) };
+        self.untold |= matches!(verb, "play" | "pause" | "step" | "speed");
+        self.asked |= matches!(verb, "set" | "focus");
         match verb {
             "play" => {
                 self.playing = true;
@@ -303,14 +313,15 @@ impl Session {
         if fastest {
             self.due = 0.0;
         }
+        self.untold |= !self.playing;
     }
     /// Shows the page the moment, if it has seen the ones before.
     fn show(&mut self) {
         let unseen = self.number.wrapping_sub(self.seen);
         let Some(shown) = &mut self.shown else { return };
         let (step, t, frame) = shown.moment();
-        if self.stale && unseen < UNSEEN {
-            self.stale = false;
+        if self.stale && unseen < UNSEEN + u32::from(self.asked) {
+            (self.stale, self.asked) = (false, false);
             self.number += 1;
             let bytes = shown.frame(self.number);
             let moving = shown.obstacles_move().then(|| shown.obstacles());
@@ -338,12 +349,14 @@ impl Session {
             }
             self.measure();
         }
-        if self.told.elapsed() >= STATUS {
-            let reached = step.abs_diff(self.told_step) as f64 / self.told.elapsed().as_secs_f64();
-            (self.told, self.told_step) = (Instant::now(), step);
+        if self.timed.elapsed() >= STATUS {
+            self.reached = step.abs_diff(self.timed_step) as f64 / self.timed.elapsed().as_secs_f64();
+            (self.timed, self.timed_step, self.untold) = (Instant::now(), step, true);
+        }
+        if std::mem::take(&mut self.untold) {
             self.tell(&json!({
                 "is": "status", "playing": self.playing, "step": step, "t": t, "frame": frame,
-                "rate": self.rate, "reached": reached,
+                "rate": self.rate, "reached": self.reached,
             }));
         }
     }

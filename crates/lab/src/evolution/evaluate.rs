@@ -17,9 +17,11 @@ use swarm::World;
 use swarm::models::{Catalogue, Models};
 use swarm::parameters::{Scalar, Value as Parameter};
 
-/// Kinds of child seeds, beside those that `search` derives: the world of a generation, the worlds of a confirmation.
+/// Kinds of child seeds, beside those that `search` derives: the world of a generation, the worlds of the stages.
 const WORLD: u32 = 2;
 const CONFIRM: u32 = 3;
+const CHOOSE: u32 = 4;
+const CONTEST: u32 = 5;
 
 /// Steps between two questions whether to stop.
 const ASKED: u64 = 64;
@@ -52,39 +54,78 @@ pub fn generation(
         Some(shared) => {
             let scenario = owned(plan, shared, candidates);
             let end = ended(plan, &scenario, child_seed(seed, WORLD, number, 0), stop)?;
-            end.map(|end| of_shared(plan, shared, &end)).transpose()
+            end.map(|end| {
+                let mut evaluated = of_shared(plan, shared, &end)?;
+                if shared.rival.is_some() {
+                    evaluated.scores.extend(scores_of(plan, shared, &Ended::rival(shared, &end))?);
+                }
+                Ok(evaluated)
+            })
+            .transpose()
         }
         None => own_worlds(plan, candidates, plan.form.trials, threads, stop, |trial| seed.wrapping_add(trial as u64)),
     }
 }
 
-/// Tries candidates in worlds with seeds that no generation had; who shared a world has the whole group. The scores,
-/// `[candidates][worlds]`; none where it was stopped.
+/// For what candidates are tried again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// The last candidates, to find the champion of a run.
+    Confirm,
+    /// Candidates that no search found, to choose the best.
+    Choose,
+    /// Contenders, to compare them.
+    Contest,
+}
+
+impl Stage {
+    /// Key of its child seeds.
+    fn key(self) -> u32 {
+        match self {
+            Self::Confirm => CONFIRM,
+            Self::Choose => CHOOSE,
+            Self::Contest => CONTEST,
+        }
+    }
+}
+
+/// Tries candidates in worlds with seeds that nothing else had, the same for all; who shared a world has the whole group.
+/// Score and what is kept, `[candidates][worlds][1 + kept]`; none where it was stopped. `run` counts from 1.
 ///
 /// # Errors
 /// As [`generation`].
-pub fn confirmed(
+pub fn tried(
     plan: &Plan,
-    run: usize,
+    (stage, run): (Stage, usize),
     candidates: &[Vec<f64>],
+    worlds: usize,
     threads: usize,
     stop: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<Vec<Vec<f64>>>, String> {
-    let worlds = plan.form.confirm;
-    let seed = |world: usize| child_seed(plan.seed_of(run), CONFIRM, world as u64, 0);
-    let score = |candidate: &Vec<f64>, world: usize| match &plan.shared {
-        Some(shared) => {
-            let scenario = owned(plan, shared, &vec![candidate.clone(); shared.candidates]);
-            let Some(end) = ended(plan, &scenario, seed(world), stop)? else { return Ok(None) };
-            let scores = of_shared(plan, shared, &end)?.scores;
-            Ok(Some(scores.iter().sum::<f64>() / scores.len() as f64))
-        }
-        None => Ok(own_worlds(plan, core::slice::from_ref(candidate), 1, 1, stop, |_| seed(world))?
-            .map(|evaluated| evaluated.scores[0])),
+) -> Result<Option<Vec<Vec<Vec<f64>>>>, String> {
+    let seed = |world: usize| child_seed(plan.seed_of(run), stage.key(), world as u64, 0);
+    let one = |candidate: &Vec<f64>, world: usize| {
+        let evaluated = match &plan.shared {
+            Some(shared) => {
+                let scenario = owned(plan, shared, &vec![candidate.clone(); shared.candidates]);
+                let Some(end) = ended(plan, &scenario, seed(world), stop)? else { return Ok(None) };
+                of_shared(plan, shared, &end)?
+            }
+            None => match own_worlds(plan, core::slice::from_ref(candidate), 1, 1, stop, |_| seed(world))? {
+                Some(evaluated) => evaluated,
+                None => return Ok(None),
+            },
+        };
+        let score = evaluated.scores.iter().sum::<f64>() / evaluated.scores.len() as f64;
+        Ok(Some([&[score][..], &evaluated.kept[0]].concat()))
     };
     let units = candidates.len() * worlds;
-    let done = in_parallel(units, threads, |unit| score(&candidates[unit / worlds], unit % worlds))?;
-    Ok(done.map(|scores| scores.chunks(worlds).map(<[f64]>::to_vec).collect()))
+    let done = in_parallel(units, threads, |unit| one(&candidates[unit / worlds], unit % worlds))?;
+    Ok(done.map(|rows| rows.chunks(worlds).map(<[Vec<f64>]>::to_vec).collect()))
+}
+
+/// The numbers that are followed, of a candidate; not a number where one has no value.
+pub fn followed(plan: &Plan, genes: &[f64]) -> Vec<f64> {
+    plan.follow.iter().map(|(_, expression)| number(expression, &Genes { plan, genes })).collect()
 }
 
 /// Does so many units on some threads; their results in order, none where one has none.
@@ -207,8 +248,18 @@ fn number(expression: &Expression, names: &dyn Names) -> f64 {
 /// What is wrong with fitness, kinds and what is kept, by key of the file.
 pub fn check(plan: &Plan) -> Vec<(String, Mistake)> {
     let mut mistakes = Vec::new();
+    let genes = plan.reference();
+    for (name, expression) in &plan.follow {
+        match expression.value(&Genes { plan, genes: &genes }) {
+            Ok(Value::Number(_)) => {}
+            Ok(other) => {
+                let what = format!("it gives {}, not a number", other.describe());
+                mistakes.push((format!("follow.{name}"), Mistake::new(0..0, what)));
+            }
+            Err(mistake) => mistakes.push((format!("follow.{name}"), mistake)),
+        }
+    }
     let Some(shared) = &plan.shared else {
-        let genes = plan.reference();
         let read = vec![1.0; plan.readings.readings.len()];
         let mut ask = |key: String, expression: &Expression| match expression.value(&Readings {
             plan,
@@ -237,11 +288,11 @@ pub fn check(plan: &Plan) -> Vec<(String, Mistake)> {
         Ok(end) => end,
         Err(what) => return vec![("gene".to_owned(), Mistake::new(0..0, format!("with the references: {what}")))],
     };
-    if let Err(mistake) = member_scores(plan, shared, &end) {
+    if let Err(mistake) = member_scores(plan, shared, &Ended::own(shared, &end)) {
         mistakes.push(("fitness".to_owned(), mistake));
     }
     for (name, expression) in &plan.keep {
-        match expression.value(&Ended { end: &end, group: shared.group }) {
+        match expression.value(&Ended::own(shared, &end)) {
             Ok(Value::Number(_)) => {}
             Ok(other) => {
                 let what = format!("it gives {}, not a number", other.describe());
@@ -253,15 +304,19 @@ pub fn check(plan: &Plan) -> Vec<(String, Mistake)> {
     mistakes
 }
 
-/// The scenario of a shared world, in which the members of each candidate have its genes.
+/// The scenario of a shared world, in which the members of each candidate have its genes. Candidates beyond those of the group
+/// are those of its rival, which stays as it is without them.
 pub fn owned(plan: &Plan, shared: &SharedWorld, candidates: &[Vec<f64>]) -> Scenario {
     let mut scenario = plan.scenario.clone();
-    let model = &mut scenario.group.0[shared.group].1.model;
-    let values: Vec<Vec<Tree>> = candidates.iter().map(|genes| plan.values(genes)).collect();
-    for (k, name) in shared.parameters.iter().enumerate() {
-        model.parameters.retain(|(other, _)| other != name);
-        let each = values.iter().flat_map(|own| std::iter::repeat_n(parameter(&own[k]), shared.members));
-        model.parameters.push((name.clone(), Given::Value(Parameter::List(each.collect()))));
+    let groups = core::iter::once(shared.group).chain(shared.rival);
+    for (group, candidates) in groups.zip(candidates.chunks(shared.candidates)) {
+        let model = &mut scenario.group.0[group].1.model;
+        let values: Vec<Vec<Tree>> = candidates.iter().map(|genes| plan.values(genes)).collect();
+        for (k, name) in shared.parameters.iter().enumerate() {
+            model.parameters.retain(|(other, _)| other != name);
+            let each = values.iter().flat_map(|own| std::iter::repeat_n(parameter(&own[k]), shared.members));
+            model.parameters.push((name.clone(), Given::Value(Parameter::List(each.collect()))));
+        }
     }
     scenario
 }
@@ -331,9 +386,9 @@ fn end_of<R: Scalar, const D: usize>(world: &World<R, D>, meals: Vec<f64>) -> En
     End { groups: frame.groups.iter().map(group).collect(), columns }
 }
 
-/// Scores of the members of the group.
-fn member_scores(plan: &Plan, shared: &SharedWorld, end: &End) -> Result<Vec<f64>, Mistake> {
-    let value = plan.fitness.value(&Ended { end, group: shared.group })?;
+/// Scores of the members of a group, from its side.
+fn member_scores(plan: &Plan, shared: &SharedWorld, names: &Ended<'_>) -> Result<Vec<f64>, Mistake> {
+    let value = plan.fitness.value(names)?;
     let numbers = match &value {
         Value::Number(number) => Some(vec![*number; shared.count]),
         Value::List(list) => list.iter().map(Value::number).collect::<Option<Vec<f64>>>(),
@@ -345,11 +400,16 @@ fn member_scores(plan: &Plan, shared: &SharedWorld, end: &End) -> Result<Vec<f64
     })
 }
 
+/// Scores of the candidates of a group, from its side.
+fn scores_of(plan: &Plan, shared: &SharedWorld, names: &Ended<'_>) -> Result<Vec<f64>, String> {
+    let scores = member_scores(plan, shared, names).map_err(|mistake| format!("fitness: {}", mistake.what))?;
+    Ok(scores.chunks(shared.members).map(|own| own.iter().sum::<f64>() / own.len() as f64).collect())
+}
+
 fn of_shared(plan: &Plan, shared: &SharedWorld, end: &End) -> Result<Evaluated, String> {
-    let scores = member_scores(plan, shared, end).map_err(|mistake| format!("fitness: {}", mistake.what))?;
-    let names = Ended { end, group: shared.group };
+    let names = Ended::own(shared, end);
     Ok(Evaluated {
-        scores: scores.chunks(shared.members).map(|own| own.iter().sum::<f64>() / own.len() as f64).collect(),
+        scores: scores_of(plan, shared, &names)?,
         kept: vec![plan.keep.iter().map(|(_, expression)| number(expression, &names)).collect()],
         kinds: Vec::new(),
     })
@@ -371,9 +431,16 @@ impl Names for Genes<'_> {
             Tree::List(list) => Value::List(list.iter().filter_map(|n| n.tree.number()).map(Value::Number).collect()),
             tree => Value::Number(tree.number().unwrap_or(f64::NAN)),
         };
-        match known {
-            Some(gene) => Ok(of(self.plan.values(self.genes).swap_remove(gene))),
-            None => Err(unknown(name, self.plan.form.gene.0.iter().map(|(name, _)| name.as_str()), bytes)),
+        // an entry of a list of genes has a name of its own
+        let axis = self.plan.axes.iter().position(|axis| axis.name == name);
+        match (known, axis) {
+            (Some(gene), _) => Ok(of(self.plan.values(self.genes).swap_remove(gene))),
+            (None, Some(axis)) => Ok(Value::Number(self.genes[axis])),
+            (None, None) => {
+                let genes = self.plan.form.gene.0.iter().map(|(name, _)| name.as_str());
+                let axes = self.plan.axes.iter().filter(|axis| axis.place.is_some()).map(|axis| axis.name.as_str());
+                Err(unknown(name, genes.chain(axes), bytes))
+            }
         }
     }
 }
@@ -407,6 +474,20 @@ struct Ended<'a> {
     end: &'a End,
     /// The group whose members are meant where none is named.
     group: usize,
+    /// Groups whose names are exchanged.
+    exchanged: Option<(usize, usize)>,
+}
+
+impl<'a> Ended<'a> {
+    /// As the group sees it.
+    fn own(shared: &SharedWorld, end: &'a End) -> Self {
+        Self { end, group: shared.group, exchanged: None }
+    }
+    /// As its rival sees it.
+    fn rival(shared: &SharedWorld, end: &'a End) -> Self {
+        let rival = shared.rival.unwrap_or(shared.group);
+        Self { end, group: rival, exchanged: Some((shared.group, rival)) }
+    }
 }
 
 impl Names for Ended<'_> {
@@ -418,10 +499,15 @@ impl Names for Ended<'_> {
             [] => self.group,
             [Selector { factor, level: Value::Text(wanted), bytes }] if factor == "group" => {
                 let groups = &self.end.groups;
-                groups
+                let named = groups
                     .iter()
                     .position(|(other, ..)| other == wanted)
-                    .ok_or_else(|| unknown(wanted, groups.iter().map(|(name, ..)| name.as_str()), bytes))?
+                    .ok_or_else(|| unknown(wanted, groups.iter().map(|(name, ..)| name.as_str()), bytes))?;
+                match self.exchanged {
+                    Some((own, rival)) if named == own => rival,
+                    Some((own, rival)) if named == rival => own,
+                    _ => named,
+                }
             }
             [selector, ..] => {
                 let what = "members are chosen by their group alone, as in health[group = red]";

@@ -3,14 +3,17 @@
 //! Each generation ends as one record of an append-only log, and the search goes on from its records: a stop at any moment
 //! loses the generation in work and nothing else, and the history is the same for any number of threads and stops.
 
-use super::evaluate::{self, Evaluated};
+use super::contest::{self, Contest, Tried};
+use super::evaluate::{self, Evaluated, Stage};
 use super::form::Search;
 use super::plan::Plan;
+use super::variants::Variants;
 use super::{report, tables};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
 use crate::store::log::Log;
 use crate::store::texts::Texts;
+use core::ops::{ControlFlow, Range};
 use search::elites::{Elites, Told};
 use search::evolution_strategy::EvolutionStrategy;
 use search::genetic::Genetic;
@@ -26,9 +29,13 @@ pub const HISTORY: &str = "generations.log";
 pub const REPORT: &str = "report.html";
 /// The champion, as a scenario.
 pub const CHAMPION: &str = "champion.toml";
-/// Kinds of records: a generation, and the last candidates tried again.
+/// Kinds of records: a generation, the last candidates tried again, a contender's worlds.
 const GENERATION: u32 = 1;
 const CONFIRMED: u32 = 2;
+const CHOSEN: u32 = 3;
+const CONTENDED: u32 = 4;
+/// What the search of a rival gets its seed by.
+const RIVAL: u32 = 7;
 
 /// A generation of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +69,7 @@ impl Run {
             None => {
                 let same = if plan.shared.is_some() { core::slice::from_ref(last) } else { &self.generations[..] };
                 let scored = |generation: &'_ Generation| generation.evaluated.scores.clone();
-                same.iter().flat_map(|one| one.candidates.iter().zip(scored(one))).collect()
+                same.iter().flat_map(|one| plan.own(&one.candidates).iter().zip(scored(one))).collect()
             }
         };
         let finite = tried.into_iter().filter(|(_, score)| score.is_finite());
@@ -94,26 +101,26 @@ pub struct Outcome {
     pub updates: u64,
     /// Seconds of this session.
     pub seconds: f64,
-    /// Scores of the champions, by run.
-    pub champions: Vec<Option<f64>>,
+    /// Scores of the champions, by run and its name.
+    pub champions: Vec<(String, Option<f64>)>,
 }
 
 /// What the folder of an evolution holds, and what may be added to it.
 const WHAT: (&str, &str) = ("evolution", "runs and generations");
 
 /// Where the evolution in a folder differs from this one, apart from runs and generations that were added.
-fn differences(plan: &Plan, manifest: &Json) -> Vec<String> {
+fn differences(variants: &Variants, manifest: &Json) -> Vec<String> {
     if manifest.get("kind").and_then(Json::as_str) != Some("evolution") {
         return vec!["it holds no evolution".to_owned()];
     }
-    folder::differences(manifest.get("identity").unwrap_or(&Json::Null), &plan.identity())
+    folder::differences(manifest.get("identity").unwrap_or(&Json::Null), &variants.identity())
 }
 
 /// Reads the evolution of a folder again.
 ///
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
-pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
+pub fn of_folder(path: &Path) -> Result<Variants, StoreError> {
     let damaged = |what: String| StoreError::Damaged(format!("`{}`: {what}", path.display()));
     let manifest = folder::manifest(path)?
         .filter(|manifest| manifest.get("kind").and_then(Json::as_str) == Some("evolution"))
@@ -129,19 +136,20 @@ pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
 /// # Errors
 /// Where the folder is of something else, the system refuses, or a world is impossible. What was done before stays.
 pub fn run(
-    plan: &Plan,
+    variants: &Variants,
     threads: usize,
     out: Option<&Path>,
     program: &str,
     watch: &mut dyn Watch,
 ) -> Result<Outcome, StoreError> {
+    let plan = variants.first();
     let stem = plan.sources.stem(0).unwrap_or("evolution");
-    let path = folder::place(out, stem, WHAT, &|manifest| differences(plan, manifest))?;
+    let path = folder::place(out, stem, WHAT, &|manifest| differences(variants, manifest))?;
     let folder = Folder::claim(&path)?;
     // another process may have had the folder in the meantime
     let before = folder::manifest(&path)?;
     if let Some(manifest) = &before {
-        let lines = differences(plan, manifest);
+        let lines = differences(variants, manifest);
         if !lines.is_empty() {
             return Err(folder::other(&path, WHAT, lines));
         }
@@ -149,26 +157,33 @@ pub fn run(
     let mut manifest = before.unwrap_or_else(|| json!({ "format": 1, "kind": "evolution", "sessions": [] }));
     manifest["title"] = json!(plan.form.title);
     manifest["files"] = Texts::json(&plan.sources, &plan.sets, plan.quick);
-    manifest["identity"] = plan.identity();
+    manifest["identity"] = variants.identity();
     manifest["status"] = json!("running");
     if let Some(Json::Array(sessions)) = manifest.get_mut("sessions") {
         sessions.push(crate::run::session(program, threads));
     }
     folder.write_manifest(&manifest)?;
-    let (mut log, mut runs) = opened(&folder, plan)?;
-    let there: usize = runs.iter().map(|run| run.generations.len().min(plan.generations)).sum();
-    let wanted = plan.form.runs * plan.generations;
-    watch.begin(&path, wanted - there, there, threads);
+    let mut history = opened(&folder, variants)?;
+    let there: usize = history.runs.iter().map(|run| run.generations.len()).sum();
+    watch.begin(&path, variants.generations() - there, there, threads);
     let began = std::time::Instant::now();
-    let done = work(plan, threads, &mut log, &mut runs, watch);
-    let seconds = began.elapsed().as_secs_f64();
+    let done = work(variants, threads, &mut history, watch);
     let left = || -> usize {
-        let missing = |run: &Run| plan.generations.saturating_sub(run.generations.len());
-        runs.iter().map(missing).sum::<usize>()
+        let missing = |(k, run): (usize, &Run)| {
+            let plan = &variants.plans[variants.of_run(k).0];
+            plan.generations.saturating_sub(run.generations.len())
+        };
+        history.runs.iter().enumerate().map(missing).sum::<usize>()
     };
-    let complete = left() == 0 && (plan.form.confirm == 0 || runs.iter().all(|run| run.confirmed.is_some()));
-    manifest["status"] = json!(if complete && done.is_ok() { "complete" } else { "stopped" });
-    let (generations, updates) = match done {
+    let left = left();
+    let confirmed = plan.form.confirm == 0 || history.runs.iter().all(|run| run.confirmed.is_some());
+    let contests = match &done {
+        Ok(_) if left == 0 && confirmed => contests(variants, threads, &mut history, watch.stopper()),
+        _ => Ok(None),
+    };
+    let seconds = began.elapsed().as_secs_f64();
+    manifest["status"] = json!(if matches!(contests, Ok(Some(_))) { "complete" } else { "stopped" });
+    let ((generations, updates), contests) = match done.and_then(|done| Ok((done, contests?))) {
         Ok(done) => done,
         Err(error) => {
             // the first error is the one to tell
@@ -182,12 +197,18 @@ pub fn run(
         session.insert("seconds".into(), json!(seconds));
         session.insert("generations".into(), json!(generations));
     }
-    if complete {
-        finish(&folder, plan, &runs, program)?;
+    if let Some(contests) = &contests {
+        finish(&folder, variants, &history.runs, contests, program)?;
     }
     folder.write_manifest(&manifest)?;
-    let champions = runs.iter().map(|run| run.champion(plan).map(|(_, score)| score)).collect();
-    let left = if complete { 0 } else { left().max(1) };
+    let score = |(k, run): (usize, &Run)| {
+        let (variant, own) = variants.of_run(k);
+        let name = format!("run {}", own + 1);
+        let name = if variants.plans.len() > 1 { format!("{}, {name}", variants.name(variant)) } else { name };
+        (name, run.champion(&variants.plans[variant]).map(|(_, score)| score))
+    };
+    let champions = history.runs.iter().enumerate().map(score).collect();
+    let left = if contests.is_some() { 0 } else { left.max(1) };
     Ok(Outcome { folder: path, left, generations, updates, seconds, champions })
 }
 
@@ -196,27 +217,46 @@ pub fn run(
 /// # Errors
 /// A folder that holds no complete evolution, or cannot be written to.
 pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
-    let plan = of_folder(path)?;
+    let variants = of_folder(path)?;
     let folder = Folder::claim(path)?;
-    let (_, runs) = opened(&folder, &plan)?;
-    if runs.iter().any(|run| run.generations.len() < plan.generations) {
-        return Err(StoreError::Refused(format!("`{}` is not complete; the same run command goes on", path.display())));
+    let mut history = opened(&folder, &variants)?;
+    let there: usize = history.runs.iter().map(|run| run.generations.len()).sum();
+    let complete = there == variants.generations();
+    // what is missing of a contest is not made here
+    let contests = if complete { contests(&variants, 1, &mut history, || true)? } else { None };
+    match contests {
+        Some(contests) => finish(&folder, &variants, &history.runs, &contests, program),
+        None => Err(StoreError::Refused(format!("`{}` is not complete; the same run command goes on", path.display()))),
     }
-    finish(&folder, &plan, &runs, program)
 }
 
-/// Tables, champion and page.
-fn finish(folder: &Folder, plan: &Plan, runs: &[Run], program: &str) -> Result<(), StoreError> {
-    tables::write(folder, plan, runs)?;
-    if let Some(text) = champion(plan, runs) {
-        let path = folder.file(CHAMPION);
-        folder.write(CHAMPION, |out| {
-            out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error))
-        })?;
+/// Tables, champions and page.
+fn finish(
+    folder: &Folder,
+    variants: &Variants,
+    runs: &[Run],
+    contests: &[Contest],
+    program: &str,
+) -> Result<(), StoreError> {
+    tables::write(folder, variants, runs, contests)?;
+    let written = |name: &str, text: &str| {
+        let path = folder.file(name);
+        folder.write(name, |out| out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+    };
+    for (variant, (plan, own)) in variants.plans.iter().zip(runs.chunks(variants.runs())).enumerate() {
+        if let Some(text) = champion(plan, own) {
+            written(&champion_file(variant), &text)?;
+        }
     }
-    let html = crate::report::html(&report::page(plan, runs, program));
-    let path = folder.file(REPORT);
-    folder.write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+    written(REPORT, &crate::report::html(&report::page(variants, runs, contests, program)))
+}
+
+/// Name of the champion's file of a variant, which counts from 0.
+fn champion_file(variant: usize) -> String {
+    match variant {
+        0 => CHAMPION.to_owned(),
+        other => CHAMPION.replace(".toml", &format!("-{}.toml", other + 1)),
+    }
 }
 
 /// The best champion of all runs as a scenario file; who shared a world has the whole group.
@@ -240,20 +280,38 @@ pub fn champion(plan: &Plan, runs: &[Run]) -> Option<String> {
     Some(crate::file::write::toml(&tree))
 }
 
-fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, Vec<Run>), StoreError> {
+/// What is known of an evolution, and the log that keeps it.
+struct History {
+    log: Log,
+    /// Runs, variant by variant.
+    runs: Vec<Run>,
+    /// What was found out of contenders, by variant.
+    tried: Vec<Tried>,
+}
+
+fn opened(folder: &Folder, variants: &Variants) -> Result<History, StoreError> {
     let path = folder.file(HISTORY);
-    let mut runs = vec![Run::default(); plan.form.runs];
+    let (each, count) = (variants.runs(), variants.plans.len());
+    let (mut runs, mut tried) = (vec![Run::default(); each * count], vec![Tried::new(); count]);
     if !path.exists() {
-        return Ok((Log::create(&path)?, runs));
+        return Ok(History { log: Log::create(&path)?, runs, tried });
     }
     let (mut log, records) = Log::open(&path)?;
     log.keep_until(records.last())?;
     let damaged = || StoreError::Damaged(format!("a record in `{}` is no generation", path.display()));
     for record in &records {
         let bytes = log.read(record)?;
-        let (run, number, words) = unpacked(&bytes).ok_or_else(damaged)?;
+        let (variant, run, number, words) = unpacked(&bytes).ok_or_else(damaged)?;
+        let plan = variants.plans.get(variant).ok_or_else(damaged)?;
+        if let CHOSEN | CONTENDED = record.kind {
+            let (genes, rows) = words.split_at_checked(plan.axes.len()).ok_or_else(damaged)?;
+            let rows = rows.chunks(1 + plan.kept().len()).map(<[f64]>::to_vec).collect();
+            let stage = if record.kind == CHOSEN { Stage::Choose } else { Stage::Contest };
+            tried[variant].insert((stage, contest::key(genes)), rows);
+            continue;
+        }
         // runs may have been fewer since
-        let Some(run) = runs.get_mut(run) else { continue };
+        let Some(run) = (run < each).then(|| &mut runs[variant * each + run]) else { continue };
         match record.kind {
             GENERATION if number == run.generations.len() => {
                 run.generations.push(generation_of(plan, &words).ok_or_else(damaged)?);
@@ -265,23 +323,61 @@ fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, Vec<Run>), StoreError> {
             _ => {}
         }
     }
-    for run in &mut runs {
-        run.generations.truncate(plan.generations);
+    for (k, run) in runs.iter_mut().enumerate() {
+        run.generations.truncate(variants.plans[k / each].generations);
     }
-    Ok((log, runs))
+    Ok(History { log, runs, tried })
 }
 
-/// A record: run, number of the generation, numbers.
-fn packed(run: usize, number: usize, numbers: impl Iterator<Item = f64>) -> Vec<u8> {
-    let words = [run as u64, number as u64].into_iter().chain(numbers.map(f64::to_bits));
-    words.flat_map(u64::to_le_bytes).collect()
+/// Holds what is missing of the contests. None where it was stopped; empty where there are none.
+fn contests(
+    variants: &Variants,
+    threads: usize,
+    history: &mut History,
+    stop: fn() -> bool,
+) -> Result<Option<Vec<Contest>>, StoreError> {
+    let mut contests = Vec::new();
+    let runs = history.runs.chunks(variants.runs());
+    for (variant, ((plan, runs), tried)) in variants.plans.iter().zip(runs).zip(&mut history.tried).enumerate() {
+        if plan.form.contest.is_none() {
+            continue;
+        }
+        let (log, mut failed) = (&mut history.log, None);
+        let mut note = |stage: Stage, genes: &[f64], rows: &[Vec<f64>]| {
+            let numbers = genes.iter().chain(rows.iter().flatten()).copied();
+            let kind = if stage == Stage::Choose { CHOSEN } else { CONTENDED };
+            match log.append(kind, &packed(variant, 0, 0, numbers)) {
+                Ok(_) => ControlFlow::Continue(()),
+                Err(error) => {
+                    failed = Some(error);
+                    ControlFlow::Break(())
+                }
+            }
+        };
+        let held = contest::held(plan, runs, tried, threads, &stop, &mut note);
+        if let Some(error) = failed {
+            return Err(error);
+        }
+        match held.map_err(|what| StoreError::Refused(format!("the contest: {what}")))? {
+            Some(contest) => contests.push(contest),
+            None => return Ok(None),
+        }
+    }
+    Ok(Some(contests))
 }
 
-fn unpacked(bytes: &[u8]) -> Option<(usize, usize, Vec<f64>)> {
+/// A record: variant and run, number of the generation, numbers.
+fn packed(variant: usize, run: usize, number: usize, numbers: impl Iterator<Item = f64>) -> Vec<u8> {
+    let head = [(variant as u64) << 32 | run as u64, number as u64];
+    head.into_iter().chain(numbers.map(f64::to_bits)).flat_map(u64::to_le_bytes).collect()
+}
+
+fn unpacked(bytes: &[u8]) -> Option<(usize, usize, usize, Vec<f64>)> {
     let words: Vec<u64> = bytes.chunks_exact(8).map(|w| u64::from_le_bytes(core::array::from_fn(|k| w[k]))).collect();
     let [run, number, numbers @ ..] = words.as_slice() else { return None };
     Some((
-        usize::try_from(*run).ok()?,
+        (run >> 32) as usize,
+        (run & u64::from(u32::MAX)) as usize,
         usize::try_from(*number).ok()?,
         numbers.iter().map(|&bits| f64::from_bits(bits)).collect(),
     ))
@@ -320,6 +416,8 @@ fn generation_of(plan: &Plan, numbers: &[f64]) -> Option<Generation> {
 /// A search of any kind.
 enum Searching {
     Genetic(Genetic),
+    /// Two groups that evolve against each other, with the candidates of both, those of the first group first.
+    Rivals(Box<[Genetic; 2]>, Vec<Vec<f64>>),
     Strategy(Box<EvolutionStrategy>),
     Elites(Box<Elites>),
 }
@@ -335,16 +433,25 @@ impl Searching {
         };
         Ok(match &plan.form.search {
             Search::Genetic(form) => {
-                let operators = plan.operators(form);
-                Self::Genetic(match there.last() {
-                    None => Genetic::new(domain, operators, seed, 0, plan.first(form, seed)?)?,
-                    Some(last) => {
-                        let number = there.len() as u64 - 1;
-                        let mut genetic = Genetic::new(domain, operators, seed, number, last.candidates.clone())?;
-                        genetic.tell(&last.evaluated.scores)?;
-                        genetic
+                // the candidates of the group, or of its rival, which stand behind them
+                let genetic = |seed: u64, part: Range<usize>| {
+                    let operators = plan.operators(form);
+                    let Some(last) = there.last() else {
+                        return Genetic::new(domain.clone(), operators, seed, 0, plan.first(form, seed)?);
+                    };
+                    let (number, candidates) = (there.len() as u64 - 1, last.candidates[part.clone()].to_vec());
+                    let mut genetic = Genetic::new(domain.clone(), operators, seed, number, candidates)?;
+                    genetic.tell(&last.evaluated.scores[part])?;
+                    Ok(genetic)
+                };
+                let each = plan.candidates(form);
+                match plan.shared.as_ref().and_then(|shared| shared.rival) {
+                    None => Self::Genetic(genetic(seed, 0..each)?),
+                    Some(_) => {
+                        let rival = space::random::child_seed(seed, RIVAL, 0, 0);
+                        Self::rivals([genetic(seed, 0..each)?, genetic(rival, each..2 * each)?])
                     }
-                })
+                }
             }
             Search::CmaEs(form) => {
                 let scores: Vec<Vec<f64>> =
@@ -358,9 +465,14 @@ impl Searching {
             }
         })
     }
+    fn rivals(both: [Genetic; 2]) -> Self {
+        let candidates = both.iter().flat_map(|one| one.candidates().iter().cloned()).collect();
+        Self::Rivals(Box::new(both), candidates)
+    }
     fn candidates(&self) -> &[Vec<f64>] {
         match self {
             Self::Genetic(search) => search.candidates(),
+            Self::Rivals(_, candidates) => candidates,
             Self::Strategy(search) => search.candidates(),
             Self::Elites(search) => search.candidates(),
         }
@@ -368,6 +480,13 @@ impl Searching {
     fn tell(&mut self, evaluated: &Evaluated) -> Result<(), search::SearchError> {
         match self {
             Self::Genetic(search) => search.tell(&evaluated.scores),
+            Self::Rivals(both, candidates) => {
+                for (one, scores) in both.iter_mut().zip(evaluated.scores.chunks(candidates.len() / 2)) {
+                    one.tell(scores)?;
+                }
+                *candidates = both.iter().flat_map(|one| one.candidates().iter().cloned()).collect();
+                Ok(())
+            }
             Self::Strategy(search) => search.tell(&evaluated.scores),
             Self::Elites(search) => {
                 let one = |(&score, kinds): (&f64, &Vec<f64>)| Told { score, descriptors: kinds.clone() };
@@ -390,12 +509,12 @@ const WAITING: usize = 256;
 
 /// Does what is missing; how many generations were done, with their updates of agents.
 fn work(
-    plan: &Plan,
+    variants: &Variants,
     threads: usize,
-    log: &mut Log,
-    runs: &mut [Run],
+    history: &mut History,
     watch: &mut dyn Watch,
 ) -> Result<(usize, u64), StoreError> {
+    let History { log, runs, .. } = history;
     // runs are independent of each other: one thread each as long as there are as many, else more threads for each
     let workers = threads.clamp(1, runs.len().max(1));
     let inside = (threads / workers).max(1);
@@ -412,7 +531,7 @@ fn work(
                 while !stop() {
                     let run = next.fetch_add(1, Ordering::Relaxed);
                     let Some(there) = begun.get(run) else { return };
-                    if let Err(what) = evolve(plan, run, there, inside, stop, &to) {
+                    if let Err(what) = evolve(variants, run, there, inside, stop, &to) {
                         // nobody listens any more where this fails
                         let _ = to.send(News::Failed(run, what));
                         return;
@@ -426,9 +545,10 @@ fn work(
         for news in from {
             let written = match news {
                 News::Generation(run, generation) => {
-                    let record = packed(run, runs[run].generations.len(), numbers(&generation));
+                    let (variant, own) = variants.of_run(run);
+                    let record = packed(variant, own, runs[run].generations.len(), numbers(&generation));
                     log.append(GENERATION, &record).map(|_| {
-                        let made = plan.updates(generation.candidates.len());
+                        let made = variants.plans[variant].updates(generation.candidates.len());
                         let scores = generation.evaluated.scores.iter().copied();
                         watch.done(made, scores.filter(|score| score.is_finite()).fold(f64::NEG_INFINITY, f64::max));
                         (done, updates) = (done + 1, updates + made);
@@ -436,7 +556,9 @@ fn work(
                     })
                 }
                 News::Confirmed(run, scores) => {
-                    let record = packed(run, plan.generations, scores.iter().flatten().copied());
+                    let (variant, own) = variants.of_run(run);
+                    let number = variants.plans[variant].generations;
+                    let record = packed(variant, own, number, scores.iter().flatten().copied());
                     log.append(CONFIRMED, &record).map(|_| runs[run].confirmed = Some(scores))
                 }
                 News::Failed(run, what) => Err(StoreError::Refused(format!("run {}: {what}", run + 1))),
@@ -453,14 +575,15 @@ fn work(
 
 /// Does what is missing of a run.
 fn evolve(
-    plan: &Plan,
+    variants: &Variants,
     run: usize,
     there: &Run,
     threads: usize,
     stop: &(dyn Fn() -> bool + Sync),
     to: &SyncSender<News>,
 ) -> Result<(), String> {
-    let number = run + 1;
+    let (variant, own) = variants.of_run(run);
+    let (plan, number) = (&variants.plans[variant], own + 1);
     let mut last = there.generations.last().map(|generation| generation.candidates.clone());
     if there.generations.len() < plan.generations {
         let mut search = Searching::of(plan, number, &there.generations).map_err(|error| error.to_string())?;
@@ -477,8 +600,12 @@ fn evolve(
     }
     if plan.form.confirm > 0
         && there.confirmed.is_none()
-        && let Some(scores) = evaluate::confirmed(plan, number, &last.unwrap_or_default(), threads, stop)?
+        && let Some(tried) = {
+            let (last, worlds) = (last.unwrap_or_default(), plan.form.confirm);
+            evaluate::tried(plan, (Stage::Confirm, number), plan.own(&last), worlds, threads, stop)?
+        }
     {
+        let scores = tried.iter().map(|worlds| worlds.iter().map(|row| row[0]).collect()).collect();
         let _ = to.send(News::Confirmed(run, scores));
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! The forms of an evolution file: which values are searched over, for what, and how.
 
 use crate::file::{Anything, Named};
-use crate::study::form::{Reading, Window, empty};
+use crate::study::form::{Claim, Figure, Reading, Test, Window, empty};
 use crate::{form, tagged, words};
 
 words! {
@@ -42,6 +42,10 @@ form! {
         group: String = need, "", Any;
         /// Members of a candidate, in the order of their numbers.
         members: usize = [1usize], "1", Within(1.0, 1_000_000.0);
+        /// A group of the same size and model that evolves as well, against the first: as many candidates, bred among
+        /// themselves, whose fitness is that of the file with the names of the two groups exchanged. Left out, the first
+        /// evolves alone.
+        rival: Option<String> = none, "", Any;
     }
 }
 
@@ -136,6 +140,48 @@ tagged! {
 }
 
 form! {
+    /// Something of this file that is varied: a value by its path, or several at once by levels with names.
+    pub struct Vary {
+        /// What it is, for axes and tables; left out, its name.
+        about: String = [""], "", Any;
+        /// Its unit.
+        unit: String = [""], "", Any;
+        /// The path of the value in this file, as `search.genetic.mutation_rate`, or below `set` in the scenario, as
+        /// `set.food.count`.
+        path: Option<String> = none, "", Any;
+        /// The values, its levels.
+        values: Vec<Anything> = [Vec::new()], "", Any;
+        /// Levels by names of yours, in place of path and values: each is a table of paths and values.
+        level: Named<Anything> = [Named::default()], "", Any;
+    }
+}
+
+form! {
+    /// Worlds that neither search nor confirmation had, in which the champions meet what is good without a search. Every
+    /// contender is tried in all of them: the reference, the champion of each run, and those named here.
+    pub struct Contest {
+        /// Number of worlds.
+        worlds: usize = [20usize], "1", Within(2.0, 1_000_000.0);
+        /// Number of worlds with `--quick`.
+        quick_worlds: usize = [4usize], "1", Within(2.0, 1_000_000.0);
+        /// Factors: each gene alone is multiplied by each of them, and the best such change of the reference is a
+        /// contender, `single`.
+        single: Vec<f64> = [Vec::new()], "1", Any;
+        /// Candidates drawn like the first ones of a search, of which the best is a contender, `random`; with `--quick` a
+        /// tenth of them.
+        random: usize = [0usize], "1", NonNegative;
+        /// Worlds in which the best of these are chosen, others than those in which contenders meet.
+        chosen_in: usize = [5usize], "1", Within(1.0, 1_000_000.0);
+        /// Contenders by names of yours, each the champion with these genes at their references.
+        without: Named<Vec<String>> = [Named::default()], "", Any;
+        /// Figures of the contest; its factor beside what is varied is `who`.
+        figure: Vec<Figure> = [Vec::new()], "", Any;
+        /// Tests between contenders (`who`) or what is varied.
+        test: Vec<Test> = [Vec::new()], "", Any;
+    }
+}
+
+form! {
     /// An evolution: genes of a scenario, a fitness, a search.
     pub struct Evolution {
         /// What kind of file this is.
@@ -144,10 +190,14 @@ form! {
         title: String = need, "", Any;
         /// What it is and what it asks; paragraphs are parted by empty lines.
         about: String = [""], "", Any;
+        /// An evolution file whose keys hold where this one has none of its own; tables are joined key by key.
+        extends: Option<String> = none, "", Any;
         /// Seed; run r (from 1) has this seed plus r - 1.
         seed: u64 = [0u64], "1", NonNegative;
         /// Independent runs of the whole search.
         runs: usize = [1usize], "1", Within(1.0, 100_000.0);
+        /// Independent runs with `--quick`; left out, as many as without.
+        quick_runs: Option<usize> = none, "1", Within(1.0, 100_000.0);
         /// Generations of a run.
         generations: usize = [100usize], "1", Within(1.0, 10_000_000.0);
         /// Generations of a run with `--quick`.
@@ -180,5 +230,17 @@ form! {
         /// Worlds with seeds of their own in which the last candidates are tried again, so that the champion owes nothing
         /// to luck; 0: none. Who shared a world has the whole group then.
         confirm: usize = [0usize], "1", NonNegative;
+        /// Numbers that are followed through the generations beside the genes, by names of yours: expressions over genes.
+        follow: Named<String> = [Named::default()], "", Any;
+        /// What of this file is varied, by names of yours: every level with every other is searched in all runs.
+        vary: Named<Vary> = [Named::default()], "", Any;
+        /// Where champions meet what is good without a search; left out, nowhere.
+        contest: Option<Contest> = none, "", Any;
+        /// Figures of readings of runs over what is varied.
+        figure: Vec<Figure> = [Vec::new()], "", Any;
+        /// Tests whether a reading of runs differs with what is varied.
+        test: Vec<Test> = [Vec::new()], "", Any;
+        /// Statements to be judged: over readings of runs, and those of contenders as `contest.fitness[who = champion]`.
+        claim: Vec<Claim> = [Vec::new()], "", Any;
     }
 }

@@ -1,6 +1,8 @@
 //! From an evolution file to genes, a search and a fitness.
 
 use super::form::{Evolution, Gene, Genetic, MapElites, Search};
+use super::tables::RESERVED;
+use super::variants::{self, Variants};
 use crate::file::tree::parse;
 use crate::file::{Desk, Form, Named, Node, Problems, Rule, Sources, Span, Tree};
 use crate::scenario::Scenario;
@@ -45,8 +47,10 @@ pub struct SharedWorld {
     pub count: usize,
     /// Members of a candidate.
     pub members: usize,
-    /// Number of candidates.
+    /// Number of candidates, of each of the two groups where both evolve.
     pub candidates: usize,
+    /// The group that evolves as well, by index.
+    pub rival: Option<usize>,
     /// The parameter that each gene is.
     pub parameters: Vec<String>,
 }
@@ -74,6 +78,8 @@ pub struct Plan {
     pub fitness: Expression,
     /// What is kept of a shared world.
     pub keep: Vec<(String, Expression)>,
+    /// Numbers that are followed beside the genes: expressions over genes.
+    pub follow: Vec<(String, Expression)>,
     /// What makes kinds differ, in a search for the best of every kind.
     pub kinds: Vec<(String, Expression)>,
     /// What is read off a world, and when it is looked at.
@@ -107,6 +113,13 @@ impl Plan {
             None => self.readings.readings.iter().map(|(name, _)| name.as_str()).collect(),
         }
     }
+    /// Which of the candidates of a generation are its own, not those of a rival.
+    pub fn own<'a, T>(&self, candidates: &'a [T]) -> &'a [T] {
+        match &self.shared {
+            Some(shared) => &candidates[..shared.candidates.min(candidates.len())],
+            None => candidates,
+        }
+    }
     /// Updates of agents in a generation of so many candidates.
     pub fn updates(&self, candidates: usize) -> u64 {
         let worlds = if self.shared.is_some() { 1 } else { candidates * self.form.trials };
@@ -119,6 +132,9 @@ impl Plan {
         (form.title, form.about) = (String::new(), String::new());
         let mut scenario = self.scenario.clone();
         (scenario.title, scenario.about, scenario.seed) = (String::new(), String::new(), None);
+        // what is asked of the results
+        (form.quick_runs, form.follow, form.vary, form.contest) = (None, Named::default(), Named::default(), None);
+        (form.figure, form.test, form.claim) = (Vec::new(), Vec::new(), Vec::new());
         form.scenario = None;
         json!({ "evolution": form.write().json(), "scenario": scenario.write().json() })
     }
@@ -201,14 +217,16 @@ impl Plan {
 ///
 /// # Errors
 /// Everything that is wrong with it, at its place.
-pub fn read(name: &str, text: &str, sets: &[String], quick: bool, load: Load<'_>) -> Result<Plan, Problems> {
+pub fn read(name: &str, text: &str, sets: &[String], quick: bool, load: Load<'_>) -> Result<Variants, Problems> {
     let mut reader = Reader { files: Files { sources: Sources::default(), desk: Desk::default(), load } };
-    let plan = reader.plan(name, text, sets, quick);
+    let variants = reader.variants(name, text, sets, quick);
     let Reader { files } = reader;
-    match plan {
-        Some(mut plan) if files.desk.problems.is_empty() => {
-            plan.sources = files.sources;
-            Ok(plan)
+    match variants {
+        Some(mut variants) if files.desk.problems.is_empty() => {
+            for plan in &mut variants.plans {
+                plan.sources.clone_from(&files.sources);
+            }
+            Ok(variants)
         }
         _ => Err(Problems::new(files.sources, files.desk.problems)),
     }
@@ -219,16 +237,75 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn plan(&mut self, name: &str, text: &str, sets: &[String], quick: bool) -> Option<Plan> {
+    fn variants(&mut self, name: &str, text: &str, sets: &[String], quick: bool) -> Option<Variants> {
         let source = self.files.sources.add(name, text);
-        let mut tree = parse(&self.files.sources, source, &mut self.files.desk.problems);
-        build::put(&mut tree, sets, &mut self.files.sources, &mut self.files.desk);
+        let mut file = parse(&self.files.sources, source, &mut self.files.desk.problems);
+        build::put(&mut file, sets, &mut self.files.sources, &mut self.files.desk);
         if !self.files.desk.problems.is_empty() {
             return None;
         }
-        let file = tree;
-        let form = Evolution::read(&file, &Rule { name: "the file", ..Rule::FREE }, &mut self.files.desk)
-            .filter(|_| self.files.desk.problems.is_empty())?;
+        let file = self.files.extended(name, file, 0)?;
+        let form = self.form(&file)?;
+        let (factors, files) = variants::of(&form, &file, &mut self.files.desk)?;
+        let (levels, files): (Vec<Vec<usize>>, Vec<Node>) = files.into_iter().unzip();
+        let plans = files.iter().map(|file| self.plan(file, sets, quick)).collect::<Option<Vec<Plan>>>()?;
+        let names = |plan: &Plan| plan.axes.iter().map(|axis| axis.name.clone()).collect::<Vec<_>>();
+        if let Some(other) =
+            plans.iter().position(|plan| names(plan) != names(&plans[0]) || plan.kept() != plans[0].kept())
+        {
+            let what = format!("the genes and readings of variant {} are not those of the first", other + 1);
+            self.files.desk.problem(&file.place("vary"), what, "the same for all variants", "");
+        }
+        let variants = Variants { plans, factors, levels };
+        self.names_are_free(&variants, &file);
+        if self.files.desk.problems.is_empty() {
+            super::answers::check(&variants, &file, &self.files.sources, &mut self.files.desk);
+        }
+        self.files.desk.problems.is_empty().then_some(variants)
+    }
+    fn form(&mut self, file: &Node) -> Option<Evolution> {
+        Evolution::read(file, &Rule { name: "the file", ..Rule::FREE }, &mut self.files.desk)
+            .filter(|_| self.files.desk.problems.is_empty())
+    }
+
+    /// Whether every name can be one of expressions and columns, and is there once.
+    fn names_are_free(&mut self, variants: &Variants, file: &Node) {
+        let plan = variants.first();
+        let of = |key: &'static str, name: &str, entry: &str| (key, name.to_owned(), entry.to_owned());
+        let genes = plan.axes.iter().map(|axis| of("gene", &axis.name, &plan.form.gene.0[axis.gene].0));
+        let given = |key: &'static str, names: Vec<String>| names.into_iter().map(move |name| of(key, &name, &name));
+        let first = |list: &[(String, Expression)]| list.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+        let kept = plan.kept().into_iter().map(str::to_owned).collect();
+        let readings = given(if plan.shared.is_some() { "keep" } else { "reading" }, kept);
+        let varied = variants.factors.iter().map(|factor| factor.name.clone()).collect();
+        let all = genes
+            .chain(readings)
+            .chain(given("search.map_elites.kind", first(&plan.kinds)))
+            .chain(given("follow", first(&plan.follow)))
+            .chain(given("vary", varied));
+        let mut seen: Vec<(&str, String)> = Vec::new();
+        for (key, name, entry) in all {
+            let place = file.place(&format!("{key}.{entry}"));
+            let mut refuse = |what: String, expected: &str| self.files.desk.problem(&place, what, expected, "");
+            let letters = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+            if !letters || !name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
+                refuse(format!("`{name}` cannot be a name"), "names have letters, digits and `_`");
+            } else if RESERVED.contains(&name.as_str()) {
+                refuse(format!("a column of the tables is called `{name}` already"), "another name");
+            } else if let Some((other, _)) = seen.iter().find(|(_, own)| *own == name) {
+                refuse(format!("`{name}` is in `{other}` already"), "another name");
+            }
+            seen.push((key, name));
+        }
+    }
+
+    /// One variant.
+    fn plan(&mut self, file: &Node, sets: &[String], quick: bool) -> Option<Plan> {
+        let source = file.span.source;
+        let mut form = self.form(file)?;
+        if let (true, Some(runs)) = (quick, form.quick_runs) {
+            form.runs = runs;
+        }
         let start = Span { source, bytes: 0..0 };
         let tree = self.files.scenario(form.scenario.as_ref(), &form.title, &form.set.0, &start, "evolution")?;
         let scenario = build::resolved(&tree, &mut self.files.desk)?;
@@ -243,21 +320,22 @@ impl Reader<'_> {
         if axes.is_empty() && self.files.desk.problems.is_empty() {
             self.files.desk.problem(&file.place("gene"), "there is nothing to search over", "at least one gene", "");
         }
-        let shared = self.shared(&form, &scenario, &file);
-        self.operators(&form, &file);
-        let derive = self.expressions("derive", &form.derive, &file);
-        let keep = self.expressions("keep", &form.keep, &file);
+        let shared = self.shared(&form, &scenario, file);
+        self.operators(&form, file);
+        let derive = self.expressions("derive", &form.derive, file);
+        let keep = self.expressions("keep", &form.keep, file);
+        let follow = self.expressions("follow", &form.follow, file);
         let kinds = match &form.search {
             Search::MapElites(elites) => {
                 let of = elites.kind.0.iter().map(|(name, kind)| (name.clone(), kind.of.clone())).collect();
-                self.expressions("search.map_elites.kind", &Named(of), &file)
+                self.expressions("search.map_elites.kind", &Named(of), file)
             }
             _ => Vec::new(),
         };
         let fitness = self.expression(&form.fitness, &file.place("fitness"));
         if let (Some(_), Some((_, first))) = (&form.shared, form.reading.0.first()) {
             let what = "readings are read off worlds of a candidate's own; `keep` says what is kept of a shared world";
-            let place = entry_place(&file, "reading", &form.reading.0[0].0);
+            let place = entry_place(file, "reading", &form.reading.0[0].0);
             self.files.desk.problem(&place, what, "leave it out", first.about.clone());
         }
         if form.shared.is_none() && !form.keep.0.is_empty() {
@@ -295,6 +373,7 @@ impl Reader<'_> {
             derive,
             fitness: fitness?,
             keep,
+            follow,
             kinds,
             readings,
             generations,
@@ -302,7 +381,7 @@ impl Reader<'_> {
             sets: sets.to_vec(),
             quick,
         };
-        self.tried(&plan, &file);
+        self.tried(&plan, file);
         Some(plan)
     }
 
@@ -458,7 +537,28 @@ impl Reader<'_> {
                 }
             }
         }
-        Some(SharedWorld { group: at, count: group.count, members: shared.members, candidates, parameters })
+        let rival = match &shared.rival {
+            Some(rival) => Some(self.rival(rival, at, form, scenario, file)?),
+            None => None,
+        };
+        Some(SharedWorld { group: at, count: group.count, members: shared.members, candidates, rival, parameters })
+    }
+
+    /// The group that evolves against another.
+    fn rival(&mut self, name: &str, other: usize, form: &Evolution, scenario: &Scenario, file: &Node) -> Option<usize> {
+        let groups = &scenario.group.0;
+        let found = groups.iter().position(|(own, _)| own == name).filter(|&found| found != other);
+        let fits = |found: &usize| {
+            let (own, first) = (&groups[*found].1, &groups[other].1);
+            own.count == first.count && own.model.id == first.model.id
+        };
+        let rival = found.filter(fits).filter(|_| matches!(form.search, Search::Genetic(_)));
+        if rival.is_none() {
+            let what = format!("`{name}` cannot evolve against `{}`", groups[other].0);
+            let expected = "another group with as many members of the same model, and a genetic algorithm";
+            self.files.desk.problem(&file.place("shared.rival"), what, expected, "");
+        }
+        rival
     }
 
     /// Whether the operators are known.
@@ -532,7 +632,8 @@ impl Reader<'_> {
         }
         for (key, mistake) in super::evaluate::check(plan) {
             let place = file.place(&key);
-            let span = if key == "fitness" || key.starts_with("keep.") || key.ends_with(".of") {
+            let expression = ["keep.", "follow."].iter().any(|table| key.starts_with(table));
+            let span = if key == "fitness" || expression || key.ends_with(".of") {
                 within(&self.files.sources, &place, &mistake.bytes)
             } else {
                 place

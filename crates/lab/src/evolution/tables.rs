@@ -1,10 +1,13 @@
 //! The tables of an evolution: a row for each generation, a row for each candidate.
 
-use super::execute::Run;
-use super::plan::Plan;
+use super::contest::{Contender, Contest};
+use super::execute::{Generation, Run};
+use super::variants::Variants;
 use crate::store::StoreError;
 use crate::store::folder::Folder;
 use crate::store::table::{Heading, Kind, Values, write_table};
+use crate::study::plan::Varied;
+use std::sync::Arc;
 
 /// A row for each generation of each run.
 pub const GENERATIONS: &str = "generations.parquet";
@@ -12,6 +15,8 @@ pub const GENERATIONS: &str = "generations.parquet";
 pub const CANDIDATES: &str = "candidates.parquet";
 /// A row for each champion.
 pub const CHAMPIONS: &str = "champions.parquet";
+/// A row for each contender in each world of a contest.
+pub const CONTEST: &str = "contest.parquet";
 
 /// Best, mean, standard deviation (n - 1) and worst of the scores that are there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,17 +47,47 @@ impl Spread {
     }
 }
 
+/// Names that columns, or readings of runs, have already.
+pub const RESERVED: [&str; 22] = [
+    "run",
+    "seed",
+    "generation",
+    "candidate",
+    "who",
+    "world",
+    "fitness",
+    "fitness_best",
+    "fitness_mean",
+    "fitness_sd",
+    "fitness_worst",
+    "slope",
+    "start",
+    "end",
+    "highest",
+    "lowest",
+    "champion",
+    "differential",
+    "drift",
+    "margin",
+    "won",
+    "variant",
+];
+
 /// Writes the tables.
 ///
 /// # Errors
 /// Where the system refuses.
-pub fn write(folder: &Folder, plan: &Plan, runs: &[Run]) -> Result<(), StoreError> {
-    let notes = [("flockworks.title".to_owned(), plan.form.title.clone())];
-    for (name, (headings, columns)) in [
-        (GENERATIONS, generations(plan, runs)),
-        (CANDIDATES, candidates(plan, runs)),
-        (CHAMPIONS, champions(plan, runs)),
-    ] {
+pub fn write(folder: &Folder, variants: &Variants, runs: &[Run], contests: &[Contest]) -> Result<(), StoreError> {
+    let notes = [("flockworks.title".to_owned(), variants.first().form.title.clone())];
+    let mut all = vec![
+        (GENERATIONS, generations(variants, runs)),
+        (CANDIDATES, candidates(variants, runs)),
+        (CHAMPIONS, champions(variants, runs)),
+    ];
+    if !contests.is_empty() {
+        all.push((CONTEST, contest(variants, contests)));
+    }
+    for (name, (headings, columns)) in all {
         write_table(folder, name, &headings, &columns, &notes)?;
     }
     Ok(())
@@ -60,107 +95,168 @@ pub fn write(folder: &Folder, plan: &Plan, runs: &[Run]) -> Result<(), StoreErro
 
 type Filled = (Vec<Heading>, Vec<Values>);
 
+/// Begins a table: the levels of what is varied and the number of the run, of each row a variant and perhaps a run.
+fn begun(variants: &Variants, of: &[usize]) -> Filled {
+    let column = |(k, factor): (usize, &Varied)| {
+        let levels = of.iter().map(|&variant| variants.levels[variant][k]);
+        if factor.numeric() {
+            let number = |level: usize| factor.levels[level].number.unwrap_or(f64::NAN);
+            let heading = Heading::new(&factor.name, &factor.unit, &factor.about, Kind::Double);
+            (heading, Values::Double(levels.map(number).collect()))
+        } else {
+            let words = factor.levels.iter().map(|level| level.text.clone()).collect();
+            let heading = Heading::new(&factor.name, "", &factor.about, Kind::Word);
+            (heading, Values::Word(levels.map(|level| level as u16).collect(), Arc::new(words)))
+        }
+    };
+    variants.factors.iter().enumerate().map(column).unzip()
+}
+
+/// Adds a column.
+fn add(filled: &mut Filled, heading: Heading, values: Values) {
+    filled.0.push(heading);
+    filled.1.push(values);
+}
+
+fn long(values: impl Iterator<Item = usize>) -> Values {
+    Values::Long(values.map(|value| value as i64).collect())
+}
+
+fn generations(variants: &Variants, runs: &[Run]) -> Filled {
+    let plan = variants.first();
+    let rows: Vec<(usize, usize, usize, &Generation)> = rows_of(variants, runs).collect();
+    let spreads: Vec<Spread> = rows.iter().map(|(.., one)| Spread::of(plan.own(&one.evaluated.scores))).collect();
+    let mut table = begun(variants, &rows.iter().map(|row| row.0).collect::<Vec<_>>());
+    add(&mut table, of_run(), long(rows.iter().map(|row| row.1 + 1)));
+    let about = "Number of the generation, from 0.";
+    add(&mut table, Heading::new("generation", "1", about, Kind::Long), long(rows.iter().map(|row| row.2)));
+    let columns: [(&str, &str, fn(&Spread) -> f64); 4] = [
+        ("fitness_best", "Fitness of the best candidate.", |spread| spread.best),
+        ("fitness_mean", "Mean fitness of the candidates.", |spread| spread.mean),
+        ("fitness_sd", "Standard deviation of the fitness of the candidates (n - 1).", |spread| spread.deviation),
+        ("fitness_worst", "Fitness of the worst candidate.", |spread| spread.worst),
+    ];
+    for (name, about, of) in columns {
+        let values = spreads.iter().map(of).collect();
+        add(&mut table, Heading::new(name, "1", about, Kind::Double), Values::Double(values));
+    }
+    if plan.shared.is_some() {
+        for (k, name) in plan.kept().into_iter().enumerate() {
+            let about = format!("`{name}` of the world at its end.");
+            let values = rows.iter().map(|(.., one)| one.evaluated.kept[0][k]).collect();
+            add(&mut table, Heading::new(name, "", &about, Kind::Double), Values::Double(values));
+        }
+    }
+    table
+}
+
+/// Variant, run (from 0), number and generation of all generations.
+fn rows_of<'a>(
+    variants: &'a Variants,
+    runs: &'a [Run],
+) -> impl Iterator<Item = (usize, usize, usize, &'a Generation)> + 'a {
+    runs.iter().enumerate().flat_map(|(k, run)| {
+        let (variant, own) = variants.of_run(k);
+        run.generations.iter().enumerate().map(move |(number, one)| (variant, own, number, one))
+    })
+}
+
 fn of_run() -> Heading {
     Heading::new("run", "1", "Number of the run, from 1.", Kind::Long)
 }
 
-fn generations(plan: &Plan, runs: &[Run]) -> Filled {
-    let rows = || {
-        runs.iter()
-            .enumerate()
-            .flat_map(|(run, own)| own.generations.iter().enumerate().map(move |(number, one)| (run, number, one)))
+fn candidates(variants: &Variants, runs: &[Run]) -> Filled {
+    let each = |(variant, run, number, one)| {
+        let one: &Generation = one;
+        (0..one.candidates.len()).map(move |candidate| (variant, run, number, candidate, one))
     };
-    let spreads: Vec<Spread> = rows().map(|(.., one)| Spread::of(&one.evaluated.scores)).collect();
-    let mut headings = vec![
-        of_run(),
-        Heading::new("generation", "1", "Number of the generation, from 0.", Kind::Long),
-        Heading::new("fitness_best", "1", "Fitness of the best candidate.", Kind::Double),
-        Heading::new("fitness_mean", "1", "Mean fitness of the candidates.", Kind::Double),
-        Heading::new("fitness_sd", "1", "Standard deviation of the fitness of the candidates (n - 1).", Kind::Double),
-        Heading::new("fitness_worst", "1", "Fitness of the worst candidate.", Kind::Double),
-    ];
-    let mut columns = vec![
-        Values::Long(rows().map(|(run, ..)| run as i64 + 1).collect()),
-        Values::Long(rows().map(|(_, number, _)| number as i64).collect()),
-        Values::Double(spreads.iter().map(|spread| spread.best).collect()),
-        Values::Double(spreads.iter().map(|spread| spread.mean).collect()),
-        Values::Double(spreads.iter().map(|spread| spread.deviation).collect()),
-        Values::Double(spreads.iter().map(|spread| spread.worst).collect()),
-    ];
-    if plan.shared.is_some() {
-        for (k, name) in plan.kept().into_iter().enumerate() {
-            let about = format!("`{name}` of the world at its end.");
-            headings.push(Heading::new(name, "", &about, Kind::Double));
-            columns.push(Values::Double(rows().map(|(.., one)| one.evaluated.kept[0][k]).collect()));
-        }
-    }
-    (headings, columns)
-}
-
-fn candidates(plan: &Plan, runs: &[Run]) -> Filled {
-    let rows = || {
-        runs.iter().enumerate().flat_map(|(run, own)| {
-            own.generations.iter().enumerate().flat_map(move |(number, one)| {
-                (0..one.candidates.len()).map(move |candidate| (run, number, candidate, one))
-            })
-        })
+    let rows: Vec<(usize, usize, usize, usize, &Generation)> = rows_of(variants, runs).flat_map(each).collect();
+    let mut table = begun(variants, &rows.iter().map(|row| row.0).collect::<Vec<_>>());
+    add(&mut table, of_run(), long(rows.iter().map(|row| row.1 + 1)));
+    let about = "Number of the generation, from 0.";
+    add(&mut table, Heading::new("generation", "1", about, Kind::Long), long(rows.iter().map(|row| row.2)));
+    let about = "Number of the candidate in its generation, from 0; those of a rival follow.";
+    add(&mut table, Heading::new("candidate", "1", about, Kind::Long), long(rows.iter().map(|row| row.3)));
+    let mut number = |heading: Heading, of: &dyn Fn(usize, &Generation) -> f64| {
+        let values = rows.iter().map(|(.., candidate, one)| of(*candidate, one)).collect();
+        add(&mut table, heading, Values::Double(values));
     };
-    let mut headings = vec![
-        of_run(),
-        Heading::new("generation", "1", "Number of the generation, from 0.", Kind::Long),
-        Heading::new("candidate", "1", "Number of the candidate in its generation, from 0.", Kind::Long),
-        Heading::new("fitness", "1", "Its fitness; missing where its world is impossible.", Kind::Double),
-    ];
-    let mut columns = vec![
-        Values::Long(rows().map(|(run, ..)| run as i64 + 1).collect()),
-        Values::Long(rows().map(|(_, number, ..)| number as i64).collect()),
-        Values::Long(rows().map(|(_, _, candidate, _)| candidate as i64).collect()),
-        Values::Double(rows().map(|(_, _, candidate, one)| one.evaluated.scores[candidate]).collect()),
-    ];
+    let about = "Its fitness; missing where its world is impossible.";
+    number(Heading::new("fitness", "1", about, Kind::Double), &|candidate, one| one.evaluated.scores[candidate]);
+    let plan = variants.first();
     for (k, gene) in plan.axes.iter().enumerate() {
-        headings.push(Heading::new(&gene.name, &gene.unit, &gene.about, Kind::Double));
-        columns.push(Values::Double(rows().map(|(_, _, candidate, one)| one.candidates[candidate][k]).collect()));
+        let heading = Heading::new(&gene.name, &gene.unit, &gene.about, Kind::Double);
+        number(heading, &|candidate, one| one.candidates[candidate][k]);
     }
     for (k, (name, _)) in plan.kinds.iter().enumerate() {
-        headings.push(Heading::new(name, "", &format!("`{name}`, of which kind it is."), Kind::Double));
-        columns.push(Values::Double(rows().map(|(_, _, candidate, one)| one.evaluated.kinds[candidate][k]).collect()));
+        let heading = Heading::new(name, "", &format!("`{name}`, of which kind it is."), Kind::Double);
+        number(heading, &|candidate, one| one.evaluated.kinds[candidate][k]);
     }
     if plan.shared.is_none() {
         for (k, (name, reading)) in plan.readings.readings.iter().enumerate() {
             let about = if reading.about.is_empty() { name } else { &reading.about };
-            headings.push(Heading::new(name, &reading.unit, about, Kind::Double));
-            columns
-                .push(Values::Double(rows().map(|(_, _, candidate, one)| one.evaluated.kept[candidate][k]).collect()));
+            let heading = Heading::new(name, &reading.unit, about, Kind::Double);
+            number(heading, &|candidate, one| one.evaluated.kept[candidate][k]);
         }
     }
-    (headings, columns)
+    table
 }
 
-fn champions(plan: &Plan, runs: &[Run]) -> Filled {
-    let rows: Vec<(usize, &[f64], f64)> = runs
-        .iter()
-        .enumerate()
-        .filter_map(|(k, run)| run.champion(plan).map(|(genes, score)| (k + 1, genes, score)))
-        .collect();
+fn champions(variants: &Variants, runs: &[Run]) -> Filled {
+    let plan = variants.first();
+    let champion = |(k, run): (usize, &'_ Run)| {
+        let (variant, own) = variants.of_run(k);
+        run.champion(&variants.plans[variant]).map(|(genes, score)| (variant, own + 1, genes.to_vec(), score))
+    };
+    let rows: Vec<(usize, usize, Vec<f64>, f64)> = runs.iter().enumerate().filter_map(champion).collect();
+    let mut table = begun(variants, &rows.iter().map(|row| row.0).collect::<Vec<_>>());
+    add(&mut table, of_run(), long(rows.iter().map(|row| row.1)));
+    let seeds = rows.iter().map(|row| plan.seed_of(row.1) as i64).collect();
+    add(&mut table, Heading::new("seed", "1", "Seed of the run.", Kind::Long), Values::Long(seeds));
     let about = match plan.form.confirm {
         0 => "Its fitness in the search.".to_owned(),
         worlds => format!("Its mean fitness in {worlds} worlds that the search had not seen."),
     };
-    let mut headings = vec![
-        of_run(),
-        Heading::new("seed", "1", "Seed of the run.", Kind::Long),
-        Heading::new("fitness", "1", &about, Kind::Double),
-    ];
-    let mut columns = vec![
-        Values::Long(rows.iter().map(|(run, ..)| *run as i64).collect()),
-        Values::Long(rows.iter().map(|(run, ..)| plan.seed_of(*run) as i64).collect()),
-        Values::Double(rows.iter().map(|(.., score)| *score).collect()),
-    ];
+    let scores = rows.iter().map(|row| row.3).collect();
+    add(&mut table, Heading::new("fitness", "1", &about, Kind::Double), Values::Double(scores));
     for (k, gene) in plan.axes.iter().enumerate() {
-        headings.push(Heading::new(&gene.name, &gene.unit, &gene.about, Kind::Double));
-        columns.push(Values::Double(rows.iter().map(|(_, genes, _)| genes[k]).collect()));
+        let heading = Heading::new(&gene.name, &gene.unit, &gene.about, Kind::Double);
+        add(&mut table, heading, Values::Double(rows.iter().map(|row| row.2[k]).collect()));
     }
-    (headings, columns)
+    table
+}
+
+/// A row for each contender in each world.
+fn contest(variants: &Variants, contests: &[Contest]) -> Filled {
+    let rows: Vec<(usize, &Contender, usize)> = contests
+        .iter()
+        .enumerate()
+        .flat_map(|(variant, contest)| contest.contenders.iter().map(move |who| (variant, who)))
+        .flat_map(|(variant, who)| (0..who.worlds.len()).map(move |world| (variant, who, world)))
+        .collect();
+    let mut table = begun(variants, &rows.iter().map(|row| row.0).collect::<Vec<_>>());
+    let mut names: Vec<String> = Vec::new();
+    let mut place = |name: &String| {
+        names.iter().position(|own| own == name).unwrap_or_else(|| {
+            names.push(name.clone());
+            names.len() - 1
+        }) as u16
+    };
+    let who = rows.iter().map(|(_, who, _)| place(&who.name)).collect();
+    add(&mut table, Heading::new("who", "", "The contender.", Kind::Word), Values::Word(who, Arc::new(names)));
+    let about = "Number of the world, from 1; a world has the same seed for all contenders.";
+    add(&mut table, Heading::new("world", "1", about, Kind::Long), long(rows.iter().map(|row| row.2 + 1)));
+    let plan = variants.first();
+    let kept = plan.kept().into_iter().map(|name| (name, format!("`{name}` of the world.")));
+    for (k, (name, about)) in core::iter::once(("fitness", "Its fitness.".to_owned())).chain(kept).enumerate() {
+        let values = rows.iter().map(|(_, who, world)| who.worlds[*world][k]).collect();
+        add(&mut table, Heading::new(name, "", &about, Kind::Double), Values::Double(values));
+    }
+    for (k, gene) in plan.axes.iter().enumerate() {
+        let heading = Heading::new(&gene.name, &gene.unit, &gene.about, Kind::Double);
+        add(&mut table, heading, Values::Double(rows.iter().map(|(_, who, _)| who.genes[k]).collect()));
+    }
+    table
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::number::{bytes, quantity};
 use super::palette::{self, SERIES};
-use super::{Figure, Lines, Means, Page, Replay, Scenes, Stage, Table, chart, escape, replay, scene};
+use super::{Figure, Lines, Means, Page, Replay, Scenes, Stage, Table, chart, drawing, escape, map, replay, scene};
 use core::fmt::Write;
 use minijinja::{Environment, Value, context};
 use serde_json::json;
@@ -46,6 +46,23 @@ pub fn html(page: &Page) -> String {
     {
         counted(&mut scenes, &|number| scenes_figure(moments, number));
     }
+    let mut drawings = Vec::new();
+    for figure in &page.figures {
+        let (title, about, wide, parts): (_, _, _, Vec<(&String, String)>) = match figure {
+            Figure::Drawings(it) => {
+                let parts = it.drawings.iter().map(|part| (&part.caption, drawing::drawing(it, part)));
+                (&it.title, &it.about, false, parts.collect())
+            }
+            Figure::Map(it) => {
+                let parts = it.panels.iter().map(|part| (&part.caption, map::panel(it, part)));
+                (&it.title, &it.about, true, parts.collect())
+            }
+            _ => continue,
+        };
+        let parts: Vec<Value> =
+            parts.into_iter().map(|(caption, svg)| context! { caption, svg => safe(svg) }).collect();
+        counted(&mut drawings, &|number| context! { number, title, about, wide, parts => &parts });
+    }
     let listings: Vec<Value> = page
         .figures
         .iter()
@@ -78,6 +95,7 @@ pub fn html(page: &Page) -> String {
             charts,
             listings,
             scenes,
+            drawings,
             methods => &page.methods,
             tables,
             command => &page.command,

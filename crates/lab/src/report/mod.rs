@@ -6,7 +6,9 @@
 
 mod chart;
 mod document;
+mod drawing;
 mod escape;
+mod map;
 mod number;
 mod palette;
 mod replay;
@@ -14,6 +16,8 @@ mod scene;
 mod ticks;
 
 pub use document::html;
+pub(crate) use drawing::TIMES;
+pub(crate) use drawing::bounds;
 pub(crate) use number::number as short;
 
 pub mod of_run;
@@ -64,6 +68,88 @@ pub enum Figure {
     Scenes(Scenes),
     /// A recording to play.
     Replay(Replay),
+    /// Drawings of places.
+    Drawings(Drawings),
+    /// Maps of a parameter space.
+    Map(Map),
+}
+
+/// How a line of a drawing is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stroke {
+    /// What was there already.
+    There,
+    /// What was built.
+    Built,
+    /// Structure that is not built.
+    Structure,
+    /// The way of a member, in one of six parts of the time.
+    Way(usize),
+}
+
+/// A drawing of a place in the plane.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// What stands below it.
+    pub caption: String,
+    /// Lines by their points.
+    pub strokes: Vec<(Stroke, Vec<[f64; 2]>)>,
+    /// Discs: whether they were built, centre and radius.
+    pub discs: Vec<(bool, [f64; 2], f64)>,
+    /// Marked places.
+    pub marks: Vec<[f64; 2]>,
+}
+
+/// Drawings side by side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawings {
+    /// Title.
+    pub title: String,
+    /// A sentence below it.
+    pub about: String,
+    /// What all of them show: lower and upper corner; none where each shows what is in it.
+    pub bounds: Option<([f64; 2], [f64; 2])>,
+    /// The drawings.
+    pub drawings: Vec<Drawing>,
+}
+
+/// A cell of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapCell {
+    /// Lower corner.
+    pub low: [f64; 2],
+    /// Upper corner.
+    pub high: [f64; 2],
+    /// Share of successes.
+    pub rate: f64,
+    /// Whether it counts as valid.
+    pub valid: bool,
+}
+
+/// A panel of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapPanel {
+    /// What stands below it.
+    pub caption: String,
+    /// Its cells.
+    pub cells: Vec<MapCell>,
+}
+
+/// Maps of a parameter space over two axes, which need fixed ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// Title.
+    pub title: String,
+    /// A sentence below it.
+    pub about: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// Whether cells are filled by their rate; else there is a symbol at each centre.
+    pub areas: bool,
+    /// The panels.
+    pub panels: Vec<MapPanel>,
 }
 
 /// An axis.

@@ -231,6 +231,8 @@ impl<R: Scalar + Send + 'static, const D: usize> Recorder<R, D> {
             refuses: world.groups().iter().map(|group| group.contact() == Contact::Refuse).collect(),
             mortality: world.mortality(),
             measures: metrics,
+            by_id: Columns::new(frame.columns.len(), frame.declared.len()),
+            sample: Sample::empty(),
             log,
             records,
         };
@@ -259,24 +261,27 @@ struct Rows {
 impl Rows {
     fn new(headings: &[Heading]) -> Result<Self, StoreError> {
         let kinds: Vec<table::Kind> = headings.iter().map(|heading| heading.kind).collect();
-        Ok(Self { columns: Self::empty(&kinds), kinds, blocks: Blocks::new(headings)? })
+        Ok(Self { columns: Self::empty(&kinds, 0), kinds, blocks: Blocks::new(headings)? })
     }
-    fn empty(kinds: &[table::Kind]) -> Vec<Values> {
+    /// No rows, with room for so many.
+    fn empty(kinds: &[table::Kind], rows: usize) -> Vec<Values> {
         let empty = |kind: &table::Kind| match kind {
-            table::Kind::Double => Values::Double(Vec::new()),
-            table::Kind::Single => Values::Single(Vec::new()),
-            table::Kind::Long => Values::Long(Vec::new()),
-            table::Kind::Whole => Values::Whole(Vec::new()),
-            table::Kind::Word => Values::Word(Vec::new(), Arc::default()),
+            table::Kind::Double => Values::Double(Vec::with_capacity(rows)),
+            table::Kind::Single => Values::Single(Vec::with_capacity(rows)),
+            table::Kind::Long => Values::Long(Vec::with_capacity(rows)),
+            table::Kind::Whole => Values::Whole(Vec::with_capacity(rows)),
+            table::Kind::Word => Values::Word(Vec::with_capacity(rows), Arc::default()),
         };
         kinds.iter().map(empty).collect()
     }
     /// The block of what waited, and nothing waits any more; none where nothing did.
     fn take(&mut self) -> Result<Option<Bytes>, StoreError> {
-        if self.columns.first().is_none_or(Values::is_empty) {
+        let rows = self.columns.first().map_or(0, Values::len);
+        if rows == 0 {
             return Ok(None);
         }
-        let columns = std::mem::replace(&mut self.columns, Self::empty(&self.kinds));
+        // as many will wait the next time
+        let columns = std::mem::replace(&mut self.columns, Self::empty(&self.kinds, rows));
         self.blocks.next(columns).map(Some)
     }
     fn number(&mut self, column: usize, value: f64) {
@@ -320,16 +325,20 @@ struct Keeper<R, const D: usize> {
     refuses: Vec<bool>,
     mortality: Option<usize>,
     measures: Vec<Box<dyn Measure<D>>>,
+    /// The state of a time, in the order of ids.
+    by_id: Columns<R, D>,
+    /// Those who are measured.
+    sample: Sample<D>,
     log: Log,
     /// The records in the log.
     records: Vec<Record>,
 }
 
-/// Appends the numbers of a column in the order of the given rows.
-fn gather<R: Scalar>(to: &mut Values, column: &[R], rows: &[usize]) {
+/// Appends numbers to a column.
+fn append<R: Scalar>(to: &mut Values, numbers: &[R]) {
     match to {
-        Values::Single(to) => to.extend(rows.iter().map(|&row| column[row].to_f64() as f32)),
-        Values::Double(to) => to.extend(rows.iter().map(|&row| column[row].to_f64())),
+        Values::Single(to) => to.extend(numbers.iter().map(|number| number.to_f64() as f32)),
+        Values::Double(to) => to.extend(numbers.iter().map(|number| number.to_f64())),
         Values::Long(_) | Values::Whole(_) | Values::Word(..) => {}
     }
 }
@@ -339,15 +348,15 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
         while let Ok(message) = from.recv() {
             match message {
                 Message::Sample { columns, step, time, frame, measured } => {
-                    let rows = columns.rows_by_id();
+                    columns.write_by_id(&mut self.by_id);
                     if let Some(number) = frame {
-                        self.keep_frame(&columns, &rows, number, time);
+                        self.keep_frame(number, time);
                         if self.frames.columns[0].len() >= BLOCK_ROWS {
                             self.flush_frames()?;
                         }
                     }
                     if let Some(counted) = measured {
-                        self.measure(&columns, &rows, step, time, &counted);
+                        self.measure(step, time, &counted);
                     }
                 }
                 Message::Events(events) => {
@@ -396,8 +405,8 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
         Ok(())
     }
 
-    fn keep_frame(&mut self, columns: &Columns<R, D>, rows: &[usize], number: u64, time: f64) {
-        let agents = rows.len();
+    fn keep_frame(&mut self, number: u64, time: f64) {
+        let (columns, agents) = (&self.by_id, self.by_id.len());
         let all = &mut self.frames.columns;
         if let Values::Whole(run) = &mut all[0] {
             run.resize(run.len() + agents, 0);
@@ -418,46 +427,47 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
             }
         }
         for a in 0..D {
-            gather(&mut all[5 + a], &columns.position[a], rows);
-            gather(&mut all[5 + D + a], &columns.velocity[a], rows);
+            append(&mut all[5 + a], &columns.position[a][..agents]);
+            append(&mut all[5 + D + a], &columns.velocity[a][..agents]);
         }
         for (c, labels) in self.tables.words.labels.iter().enumerate() {
             let (to, from) = (&mut all[5 + 2 * D + c], &columns.state[c]);
             for (g, range) in self.groups.iter().enumerate() {
-                let rows = &rows[range.first as usize..(range.first + range.count) as usize];
+                let of_group = &from[range.first as usize..(range.first + range.count) as usize];
                 let declares = self.declares[g][c];
                 match (&mut *to, labels) {
                     (Values::Word(values, words), Some(labels)) => {
                         *words = Arc::clone(labels);
                         let none = labels.len() as u16;
-                        let word = |&row: &usize| from[row].to_f64().clamp(0.0, f64::from(none)) as u16;
-                        values.extend(rows.iter().map(|row| if declares { word(row) } else { none }));
+                        let word = |label: &R| label.to_f64().clamp(0.0, f64::from(none)) as u16;
+                        values.extend(of_group.iter().map(|label| if declares { word(label) } else { none }));
                     }
-                    (to, _) if declares => gather(to, from, rows),
-                    (Values::Single(to), _) => to.resize(to.len() + rows.len(), f32::NAN),
-                    (Values::Double(to), _) => to.resize(to.len() + rows.len(), f64::NAN),
+                    (to, _) if declares => append(to, of_group),
+                    (Values::Single(to), _) => to.resize(to.len() + of_group.len(), f32::NAN),
+                    (Values::Double(to), _) => to.resize(to.len() + of_group.len(), f64::NAN),
                     (Values::Long(_) | Values::Whole(_) | Values::Word(..), _) => {}
                 }
             }
         }
     }
 
-    fn measure(&mut self, columns: &Columns<R, D>, by_id: &[usize], step: u64, time: f64, since: &Counted) {
+    fn measure(&mut self, step: u64, time: f64, since: &Counted) {
+        let columns = &self.by_id;
         let frame = Frame { columns, declared: &self.declared, groups: &self.groups, space: &self.space, time, step };
         let lives = |row: &usize| self.mortality.is_none_or(|c| columns.state[c][*row] > R::ZERO);
         let whole = self.groups.len();
-        // groups own consecutive ids
+        // groups own consecutive ids, which the rows are here
         let rows_of = |group: usize| -> Vec<usize> {
             let ids = match self.groups.get(group) {
                 Some(range) => range.first as usize..(range.first + range.count) as usize,
-                None => 0..by_id.len(),
+                None => 0..columns.len(),
             };
-            by_id[ids].iter().copied().filter(lives).collect()
+            ids.filter(lives).collect()
         };
         let parts = if whole > 1 { whole + 1 } else { whole };
         for part in 0..parts {
             let members = rows_of(part);
-            let sample = Sample::of(&frame, &members);
+            self.sample.read(&frame, &members);
             let out = &mut self.metrics;
             out.whole(0, 0);
             out.whole(1, step as i64);
@@ -466,7 +476,7 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
             out.whole(4, members.len() as i64);
             let mut to = 5;
             for measure in &self.measures {
-                out.number(to, measure.on(&sample).unwrap_or(f64::NAN));
+                out.number(to, measure.on(&self.sample).unwrap_or(f64::NAN));
                 to += 1;
             }
             for (c, column) in self.declared.iter().enumerate() {

@@ -148,6 +148,9 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
         (Some(_), _) => ", with given velocities.".to_owned(),
         (None, Heading::Random(_)) => ", each heading its own way.".to_owned(),
         (None, Heading::Along(_)) => ", all heading the same, given way.".to_owned(),
+        (None, Heading::About(about)) => {
+            format!(", heading a given way, with a standard deviation of {} degrees.", number(about.deviation))
+        }
         (None, Heading::Common(common)) => {
             format!(", heading one way drawn for all, give or take {} degrees.", number(common.spread))
         }

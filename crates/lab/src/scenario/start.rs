@@ -2,7 +2,7 @@
 //!
 //! Every draw depends on the seed, on what it is for, and on an attempt number that never resets between bodies, so
 //! that a start is the same on any machine: place by U(seed, init, attempt + 2^36 group, axis), heading by
-//! U(seed, init, id, 4 and 5), the common heading of a group by U(seed, init, 2^40, 8 group and 8 group + 1), and the
+//! U(seed, init, id, 4 and 5), jitter and deviations from a given heading by U(seed, init, 2^42 + id, 0 to 5 and 6 to 7), the common heading of a group by U(seed, init, 2^40, 8 group and 8 group + 1), and the
 //! offsets from it by U(seed, init, 2^40 + 1 + id, 0 and 1).
 
 use super::agents::PerMember;
@@ -10,7 +10,7 @@ use super::build::{Wrong, vector};
 use crate::file::{Named, Nothing};
 use crate::{form, tagged};
 use space::obstacles::Obstacles;
-use space::random::{Purpose, uniform, unit_vector};
+use space::random::{Purpose, normal, uniform, unit_vector};
 use space::{Real, Space, Vector};
 use std::collections::BTreeMap;
 use swarm::engine as plan;
@@ -22,6 +22,8 @@ form! {
         place: Place = [Place::Anywhere(Nothing)], "", Any;
         /// Least distance between the centres of two members.
         spacing: f64 = [0.0], "length", NonNegative;
+        /// Standard deviation of a shift of each place along every axis.
+        jitter: f64 = [0.0], "length", NonNegative;
         /// Which way they head.
         heading: Heading = [Heading::Random(Nothing)], "", Any;
         /// How fast they move; left out, as the model begins.
@@ -38,6 +40,7 @@ impl Default for Start {
         Self {
             place: Place::Anywhere(Nothing),
             spacing: 0.0,
+            jitter: 0.0,
             heading: Heading::Random(Nothing),
             speed: None,
             velocities: None,
@@ -142,6 +145,18 @@ tagged! {
         along in "1", swarm::parameters::Range::Any => Along(Vec<f64>);
         /// One way drawn for all; in 3-D azimuth and elevation are uniform.
         common => Common(Common);
+        /// About a given way, with normal deviations of the azimuth.
+        about => About(About);
+    }
+}
+
+form! {
+    /// Headings about a given way.
+    pub struct About {
+        /// The way.
+        direction: Vec<f64> = need, "1", Any;
+        /// Standard deviation of the azimuth.
+        deviation: f64 = need, "deg", NonNegative;
     }
 }
 
@@ -177,7 +192,14 @@ impl Start {
         if self.spacing > 0.0 && matches!(self.place, Place::Points(_) | Place::Lattice(_)) {
             return Err(Wrong::new("spacing", "the place says already how far apart they begin", "leave it out"));
         }
-        let position = self.positions(around)?;
+        let mut position = self.positions(around)?;
+        if self.jitter > 0.0 {
+            for (id, place) in (around.first..).zip(&mut position) {
+                let draw = |slot| uniform(around.seed, Purpose::Init, (1 << 42) + u64::from(id), slot);
+                let shift = |a: usize| R::of(self.jitter * normal(draw(2 * a as u32), draw(2 * a as u32 + 1)));
+                *place = inside(around.space, *place + Vector(core::array::from_fn(shift)), "jitter")?;
+            }
+        }
         let velocity = self.velocities(around)?;
         let mut columns = BTreeMap::new();
         for (name, values) in &self.state.0 {
@@ -338,6 +360,19 @@ impl Start {
                 }
                 vec![way.unit(); around.count]
             }
+            Heading::About(about) => {
+                let way: Vector<R, D> = at_path(&about.direction, "heading.about.direction")?;
+                if way.is_tiny() {
+                    let what = "the zero vector shows no way";
+                    return Err(Wrong::new("heading.about.direction", what, "a vector with a length"));
+                }
+                ids.map(|id| {
+                    let draw = |slot| uniform(seed, Purpose::Init, (1 << 42) + u64::from(id), slot);
+                    let off = (about.deviation * normal(draw(6), draw(7))).to_radians();
+                    turned(way.unit(), R::of(off))
+                })
+                .collect()
+            }
             Heading::Common(common) => {
                 let base = |slot: u32| uniform(seed, Purpose::Init, 1 << 40, 8 * around.group as u32 + slot);
                 let (azimuth, elevation) = (-180.0 + 360.0 * base(0), -90.0 + 180.0 * base(1));
@@ -350,6 +385,18 @@ impl Start {
             }
         })
     }
+}
+
+/// A vector turned by an angle in the plane of the first two axes; in one dimension as it is.
+fn turned<R: Real, const D: usize>(v: Vector<R, D>, angle: R) -> Vector<R, D> {
+    let (sin, cos) = angle.sin_cos();
+    let (x, y) = (v[0], if D > 1 { v[1] } else { R::ZERO });
+    Vector(core::array::from_fn(|a| match a {
+        _ if D == 1 => v[a],
+        0 => x * cos - y * sin,
+        1 => x * sin + y * cos,
+        _ => v[a],
+    }))
 }
 
 /// The unit vector of an azimuth and an elevation, in degrees; in one dimension its sign.

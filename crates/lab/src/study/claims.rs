@@ -55,6 +55,17 @@ pub struct Judged {
     pub share: Option<f64>,
 }
 
+/// A statement of a study beside what came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// The part that makes it; empty where there is one part, or where it is about several.
+    pub part: String,
+    /// The statement.
+    pub claim: Claim,
+    /// What came of it.
+    pub judged: Judged,
+}
+
 /// The cells of a part that have given levels, by index.
 pub fn matching(plan: &Plan, part: &Part, only: &[(String, Level)]) -> Vec<usize> {
     let fits = |&cell: &usize| {
@@ -173,7 +184,7 @@ impl Names for Data<'_> {
 }
 
 /// Notes what is wrong with the names, figures, tests and statements of a part.
-pub(super) fn check(plan: &Plan, part: usize, tree: &Node, sources: &Sources, desk: &mut Desk) {
+pub(crate) fn check(plan: &Plan, part: usize, tree: &Node, sources: &Sources, desk: &mut Desk) {
     let part = &plan.parts[part];
     names_are_free(plan, part, tree, desk);
     let readings: Vec<&str> = plan.readings.iter().map(|(name, _)| name.as_str()).collect();
@@ -315,7 +326,15 @@ pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawing
         Some(Ok(value)) => value.truth().ok_or_else(|| "it is neither true nor false".to_owned()),
         Some(Err(mistake)) => Err(mistake.what),
     };
-    let fewest = (0..plan.cells.len()).map(|cell| of_cell(plan, results, cell).count()).min().unwrap_or(0);
+    // of the parts that it is about
+    let asked = number_of.iter().chain(&holds).filter_map(|expression| expression.as_ref().ok());
+    let names: Vec<&str> = asked.flat_map(Expression::names).collect();
+    let parts = names.iter().map(|name| {
+        let named = name.split_once('.').and_then(|(own, _)| plan.parts.iter().find(|part| part.name == own));
+        named.unwrap_or(part)
+    });
+    let cells = parts.flat_map(|part| part.cells.clone());
+    let fewest = cells.map(|cell| of_cell(plan, results, cell).count()).min().unwrap_or(0);
     let (mut drawn, mut held) = (vec![Vec::new(); number.len()], 0.0);
     for counts in &drawings.counts {
         let mean = |cell: usize, reading: usize| {

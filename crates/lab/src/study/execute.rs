@@ -4,6 +4,7 @@
 //! flight and nothing else, and a study has five files however many trials it has. Tables and page are made from the log
 //! alone, in the order of the plan: they have the same bytes for any number of threads, stops and shards.
 
+use super::claims::Judgement;
 use super::plan::{self, Plan};
 use super::{report, tables, trial};
 use crate::store::StoreError;
@@ -103,6 +104,8 @@ pub struct Outcome {
     pub updates: u64,
     /// Seconds of this session.
     pub seconds: f64,
+    /// The statements with what came of them; none where it was stopped.
+    pub judgements: Vec<Judgement>,
 }
 
 /// What the folder of a study holds, and what may be added to it.
@@ -238,14 +241,14 @@ pub fn run(
     let left = units.len() - trials;
     let whole = Selection::default().units(plan).iter().all(|(c, trial)| results[*c].contains_key(trial));
     manifest["status"] = json!(if whole { "complete" } else { "stopped" });
-    let outcome = |end| Outcome { folder: path.clone(), end, trials, updates: made, seconds };
+    let outcome = |end, judgements| Outcome { folder: path.clone(), end, trials, updates: made, seconds, judgements };
     if left > 0 {
         folder.write_manifest(&manifest)?;
-        return Ok(outcome(End::Stopped(left)));
+        return Ok(outcome(End::Stopped(left), Vec::new()));
     }
-    finish(&folder, plan, &results, program)?;
+    let judgements = finish(&folder, plan, &results, program)?;
     folder.write_manifest(&manifest)?;
-    Ok(outcome(End::Complete))
+    Ok(outcome(End::Complete, judgements))
 }
 
 /// Joins the results of several folders of one study, as shards leave them, into another.
@@ -324,16 +327,18 @@ pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
     let plan = of_folder(path)?;
     let folder = Folder::claim(path)?;
     let (_, results) = opened(&folder, &plan)?;
-    finish(&folder, &plan, &results, program)
+    finish(&folder, &plan, &results, program).map(|_| ())
 }
 
-/// Tables and page from what is there.
-fn finish(folder: &Folder, plan: &Plan, results: &Results, program: &str) -> Result<(), StoreError> {
+/// Tables and page from what is there; the statements with what came of them.
+fn finish(folder: &Folder, plan: &Plan, results: &Results, program: &str) -> Result<Vec<Judgement>, StoreError> {
     tables::write(folder, plan, results)?;
-    let page = report::page(plan, results, program);
-    let html = crate::report::html(&page);
+    let judgements = report::judgements(plan, results);
+    let html = crate::report::html(&report::page(plan, results, &judgements, program));
     let path = folder.file(REPORT);
-    folder.write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+    folder
+        .write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))?;
+    Ok(judgements)
 }
 
 fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, Results), StoreError> {

@@ -125,7 +125,7 @@ pub struct Expression {
 }
 
 /// Functions with what they take and give.
-pub const FUNCTIONS: [(&str, &str); 25] = [
+pub const FUNCTIONS: [(&str, &str); 27] = [
     ("if", "if(truth, a, b): a where the truth holds, else b"),
     ("abs", "abs(x): the size of x"),
     ("sqrt", "sqrt(x): the square root"),
@@ -146,6 +146,8 @@ pub const FUNCTIONS: [(&str, &str); 25] = [
     ("last", "last(list): its last entry"),
     ("all", "all(truths): whether all hold"),
     ("any", "any(truths): whether at least one holds"),
+    ("share", "share(truths): how many of them hold, as a part of all"),
+    ("median", "median(a, b, ...): the middle one in order; of an even number the mean of two"),
     ("at_max", "at_max(xs, ys): the x at which y is greatest"),
     ("at_min", "at_min(xs, ys): the x at which y is least"),
     ("rank_correlation", "rank_correlation(xs, ys): Spearman's, from -1 (falls) to 1 (rises)"),
@@ -631,13 +633,17 @@ impl Part {
             let held = parts[0].value(names)?;
             return parts[if parts[0].truth(&held)? { 1 } else { 2 }].value(names);
         }
-        if let "all" | "any" = name {
+        if let "all" | "any" | "share" = name {
             needs(1)?;
             let value = parts[0].value(names)?;
             let list = if let Value::List(list) = value { list } else { vec![value] };
             let truths = list.iter().map(|x| parts[0].truth(x)).collect::<Result<Vec<bool>, _>>()?;
-            let held = if name == "all" { truths.iter().all(|&t| t) } else { truths.iter().any(|&t| t) };
-            return Ok(Value::Truth(held));
+            let held = truths.iter().filter(|&&truth| truth).count();
+            return Ok(match name {
+                "all" => Value::Truth(held == truths.len()),
+                "any" => Value::Truth(held > 0),
+                _ => Value::Number(held as f64 / truths.len() as f64),
+            });
         }
         if let "at_max" | "at_min" | "rank_correlation" | "slope" = name {
             needs(2)?;
@@ -663,6 +669,7 @@ impl Part {
             ("min", _) => least,
             ("max", _) => greatest,
             ("spread", _) => greatest - least,
+            ("median", numbers) => measure::statistics::median(numbers).unwrap_or(f64::NAN),
             ("mean", _) => numbers.iter().sum::<f64>() / count,
             ("first", [first, ..]) => *first,
             (_, [.., last]) => *last,

@@ -81,8 +81,26 @@ form! {
     }
 }
 
+words! {
+    /// What is made of the values of the looks.
+    pub enum Statistic {
+        /// Their mean.
+        Mean = "mean",
+        /// Their standard deviation (divisor n).
+        Deviation = "deviation",
+        /// The least.
+        Least = "least",
+        /// The greatest.
+        Greatest = "greatest",
+        /// That of the last look that has one.
+        Last = "last",
+        /// Their Binder cumulant, 1 - mean x^4 / (3 (mean x^2)^2).
+        Binder = "binder",
+    }
+}
+
 form! {
-    /// A metric of `flockworks metrics`, its mean over the looks.
+    /// A metric of `flockworks metrics` over the looks.
     pub struct MetricReading {
         /// The metric.
         id: String = need, "", Any;
@@ -92,6 +110,24 @@ form! {
         scale: f64 = [1.0], "", Any;
         /// The group; left out, everyone.
         group: Option<String> = none, "", Any;
+        /// What is made of its values.
+        statistic: Statistic = [Statistic::Mean], "", Any;
+    }
+}
+
+form! {
+    /// The number of members in a box along the axes, its edges included, over the looks.
+    pub struct InsideReading {
+        /// Lower corner.
+        low: Vec<f64> = need, "length", Any;
+        /// Upper corner.
+        high: Vec<f64> = need, "length", Any;
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
+        /// What is made of the numbers.
+        statistic: Statistic = [Statistic::Mean], "", Any;
     }
 }
 
@@ -231,11 +267,37 @@ form! {
     }
 }
 
+words! {
+    /// What is read off the food.
+    pub enum FoodQuantity {
+        /// Items consumed per member.
+        Meals = "meals",
+        /// Mean time from the appearance of an item to its consumption, of those that were consumed.
+        Wait = "wait",
+        /// Share of the contested items that were consumed by the group: a living member of another group was near as well.
+        Won = "won",
+    }
+}
+
+form! {
+    /// Something of the food that a group consumes, over the whole trial.
+    pub struct FoodReading {
+        /// What.
+        quantity: FoodQuantity = need, "", Any;
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
+        /// Whoever is closer than this to an item, when it is consumed, contests it.
+        near: f64 = [20.0], "length", Positive;
+    }
+}
+
 tagged! {
     /// What is read off a trial: one number.
     pub enum Quantity {
         /// A metric.
         metric => Metric(MetricReading);
+        /// Members in a box.
+        inside => Inside(InsideReading);
         /// A share of a state.
         share => Share(ShareReading);
         /// A mean of a column.
@@ -248,6 +310,8 @@ tagged! {
         cluster => Cluster(ClusterReading);
         /// Something of the paths.
         path => Path(PathReading);
+        /// Something of the food.
+        food => Food(FoodReading);
         /// The distance between obstacles.
         obstacle_distance => ObstacleDistance(ObstacleReading);
     }

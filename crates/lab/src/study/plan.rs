@@ -6,8 +6,8 @@
 
 use super::expression::{Expression, Mistake, Names, Selector, Value};
 use super::form::{
-    Claim, ContactReading, Design, Factor, Figure, MetricReading, Partner, Quantity, Reading, ShareReading, Study,
-    Test, Whose, Window,
+    Claim, ContactReading, Design, Factor, Figure, MetricReading, Partner, Quantity, Reading, ShareReading, Statistic,
+    Study, Test, Whose, Window,
 };
 use crate::file::tree::parse;
 use crate::file::{Anything, Desk, Form, Named, Node, Problems, Rule, Sources, Span, Tree};
@@ -205,7 +205,7 @@ pub(crate) struct Files<'a> {
 
 impl Files<'_> {
     /// Path and text of a file beside another.
-    fn loaded(&mut self, beside: &str, file: &str, place: &Span) -> Option<(String, String)> {
+    pub(crate) fn loaded(&mut self, beside: &str, file: &str, place: &Span) -> Option<(String, String)> {
         let path = std::path::Path::new(beside).parent().map_or_else(|| file.into(), |folder| folder.join(file));
         let path = path.to_string_lossy().into_owned();
         match (self.load)(&path) {
@@ -260,8 +260,31 @@ impl Files<'_> {
         self.put(&mut base, set)?;
         Some(base)
     }
+    /// A file with the keys of those it extends, where it has none of its own. `depth` counts them.
+    pub(crate) fn extended(&mut self, name: &str, mut tree: Node, depth: usize) -> Option<Node> {
+        let Some(node) = tree.get("extends").cloned() else { return Some(tree) };
+        let Tree::Text(file) = &node.tree else { return Some(tree) };
+        if depth == CHAIN {
+            self.desk.problem(&node.span, "too many files extend one another", "a circle?", "");
+            return None;
+        }
+        let (path, text) = self.loaded(name, file, &node.span)?;
+        let source = self.sources.add(&path, &text);
+        let under = parse(&self.sources, source, &mut self.desk.problems);
+        if !self.desk.problems.is_empty() {
+            return None;
+        }
+        let under = self.extended(&path, under, depth + 1)?;
+        if let Tree::Table(entries) = &mut tree.tree {
+            entries.retain(|entry| entry.key != "extends");
+        }
+        let mut joined = under;
+        join(&mut joined, &tree);
+        joined.span = tree.span;
+        Some(joined)
+    }
     /// Puts a table of values over a tree; a key with dots is a path, whose value is put as it is.
-    fn put(&mut self, tree: &mut Node, patch: &Node) -> Option<()> {
+    pub(crate) fn put(&mut self, tree: &mut Node, patch: &Node) -> Option<()> {
         let Tree::Table(entries) = &patch.tree else {
             let what = format!("a table of paths and values is needed here, found {}", patch.tree.describe());
             self.desk.problem(&patch.span, what, "expected a table", "");
@@ -375,7 +398,7 @@ impl Reader<'_> {
         if !self.files.desk.problems.is_empty() {
             return None;
         }
-        let tree = self.extended(name, tree, 0)?;
+        let tree = self.files.extended(name, tree, 0)?;
         let before = self.files.desk.problems.len();
         let study = Study::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut self.files.desk)?;
         if self.files.desk.problems.len() > before {
@@ -384,29 +407,6 @@ impl Reader<'_> {
         let stem = std::path::Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("study");
         Some(Raw { name: stem.to_owned(), study, tree })
     }
-    fn extended(&mut self, name: &str, mut tree: Node, depth: usize) -> Option<Node> {
-        let Some(node) = tree.get("extends").cloned() else { return Some(tree) };
-        let Tree::Text(file) = &node.tree else { return Some(tree) };
-        if depth == CHAIN {
-            self.files.desk.problem(&node.span, "too many files extend one another", "a circle?", "");
-            return None;
-        }
-        let (path, text) = self.files.loaded(name, file, &node.span)?;
-        let source = self.files.sources.add(&path, &text);
-        let under = parse(&self.files.sources, source, &mut self.files.desk.problems);
-        if !self.files.desk.problems.is_empty() {
-            return None;
-        }
-        let under = self.extended(&path, under, depth + 1)?;
-        if let Tree::Table(entries) = &mut tree.tree {
-            entries.retain(|entry| entry.key != "extends");
-        }
-        let mut joined = under;
-        join(&mut joined, &tree);
-        joined.span = tree.span;
-        Some(joined)
-    }
-
     fn part(&mut self, plan: &mut Plan, raw: &Raw, trials: usize) -> Option<()> {
         let study = &raw.study;
         let start = Span { source: raw.tree.span.source, bytes: 0..0 };
@@ -887,7 +887,8 @@ pub(crate) fn usual_readings(scenario: &Scenario) -> Vec<(String, Reading)> {
         let Some(card) = measure::metrics::LIST.iter().find(|card| card.id == id) else { continue };
         let known = |(name, _): &&(String, f64)| card.parameters.iter().any(|parameter| parameter.name == name);
         let parameters = Named(scenario.measure.parameters.0.iter().filter(known).cloned().collect());
-        let of = Quantity::Metric(MetricReading { id: id.clone(), parameters, scale: 1.0, group: None });
+        let statistic = Statistic::Mean;
+        let of = Quantity::Metric(MetricReading { id: id.clone(), parameters, scale: 1.0, group: None, statistic });
         add(id, card.title, scenario.units.of(card.unit), of);
     }
     for (_, group) in &scenario.group.0 {

@@ -1,9 +1,9 @@
 //! The page of a study: figures of means with their errors, statements with what the data say of them, tests as sentences
 //! for a paper, and every number behind them as a table.
 
-use super::claims::{self, Drawings, Judged, Level, Verdict};
+use super::claims::{self, Drawings, Judged, Judgement, Level, Verdict};
 use super::execute::{Results, Selection};
-use super::form::{Figure as Wanted, Test};
+use super::form::{Claim, Figure as Wanted, Test};
 use super::plan::{Part, Plan, Varied};
 use super::tables::{Summary, by_trial, of_cell};
 use crate::report::{Axis, Fact, Figure, Line, Lines, Listing, Means, Page, Table, short};
@@ -16,22 +16,45 @@ const LEVEL: f64 = 0.05;
 /// Cells that are listed in the page; all are in the table.
 const LISTED: usize = 300;
 
-/// The page.
-pub fn page(plan: &Plan, results: &Results, program: &str) -> Page {
+/// The statements of a study with what the data say of them, part by part; last those about several parts.
+pub fn judgements(plan: &Plan, results: &Results) -> Vec<Judgement> {
     let most = results.iter().filter_map(|trials| trials.keys().last()).copied().max().unwrap_or(0);
     let drawings = Drawings::of(plan.seed, most);
+    let judge = |part: &Part, name: &str, claim: &Claim| Judgement {
+        part: name.to_owned(),
+        claim: claim.clone(),
+        judged: claims::judge(plan, results, part, claim, &drawings),
+    };
+    let several = plan.parts.len() > 1;
+    let of = |part: &Part| {
+        let name = if several { part.name.as_str() } else { "" };
+        part.claims.iter().map(|claim| judge(part, name, claim)).collect::<Vec<_>>()
+    };
+    let mut judgements: Vec<Judgement> = plan.parts.iter().flat_map(of).collect();
+    // statements about several parts name the part before each reading
+    judgements
+        .extend(plan.parts.first().into_iter().flat_map(|part| plan.claims.iter().map(move |c| judge(part, "", c))));
+    judgements
+}
+
+/// What the data say of everything that was asked: figures, tests as sentences, statements, cells.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Answers {
+    pub(crate) figures: Vec<Figure>,
+    pub(crate) sentences: Vec<String>,
+    pub(crate) tables: Vec<Table>,
+    /// How many statements hold.
+    pub(crate) facts: Vec<Fact>,
+}
+
+/// Answers everything that a plan asks of results.
+pub(crate) fn answers(plan: &Plan, results: &Results, judgements: &[Judgement]) -> Answers {
     let mut figures = Vec::new();
-    let mut judgements = Vec::new();
-    let mut statements = Vec::new();
+    let statements: Vec<Vec<String>> =
+        judgements.iter().map(|Judgement { part, claim, judged }| statement(part, claim, judged)).collect();
     let (mut sentences, mut test_rows) = (Vec::new(), Vec::new());
     for part in &plan.parts {
         figures.extend(part.figures.iter().flat_map(|wanted| drawn(plan, results, part, wanted)));
-        for claim in &part.claims {
-            let judged = claims::judge(plan, results, part, claim, &drawings);
-            let part_name = if plan.parts.len() > 1 { part.name.as_str() } else { "" };
-            statements.push(statement(part_name, claim, &judged));
-            judgements.push((claim.strength, judged));
-        }
         for test in &part.tests {
             for (only, cells) in compared(plan, part, test) {
                 let (sentence, rows) = tested(plan, results, part, test, &only, &cells);
@@ -39,12 +62,6 @@ pub fn page(plan: &Plan, results: &Results, program: &str) -> Page {
                 test_rows.extend(rows);
             }
         }
-    }
-    // statements about several parts name the part before each reading
-    for claim in plan.claims.iter().filter(|_| !plan.parts.is_empty()) {
-        let judged = claims::judge(plan, results, &plan.parts[0], claim, &drawings);
-        statements.push(statement("", claim, &judged));
-        judgements.push((claim.strength, judged));
     }
     let mut listings = Vec::new();
     if !statements.is_empty() {
@@ -87,13 +104,21 @@ pub fn page(plan: &Plan, results: &Results, program: &str) -> Page {
         tables.push(Table { file: file.into(), about: about.into(), csv: csv(&rows) });
     }
     figures.extend(listings.into_iter().map(Figure::Listing));
+    Answers { figures, sentences, tables, facts: held(judgements) }
+}
+
+/// The page.
+pub fn page(plan: &Plan, results: &Results, judgements: &[Judgement], program: &str) -> Page {
+    let Answers { figures, sentences, tables, facts } = answers(plan, results, judgements);
     let mut methods = methods(plan);
     methods.extend(sentences);
+    let mut summary = summary(plan, results);
+    summary.extend(facts);
     Page {
         title: plan.title.clone(),
         lead: paragraphs(&plan.about),
         methods,
-        summary: summary(plan, results, &judgements),
+        summary,
         figures,
         tables,
         command: command(plan),
@@ -112,8 +137,11 @@ fn command(plan: &Plan) -> String {
     format!("flockworks run {}{}{sets}", plan.sources.name(0), if plan.quick { " --quick" } else { "" })
 }
 
-fn summary(plan: &Plan, results: &Results, judgements: &[(super::form::Strength, Judged)]) -> Vec<Fact> {
-    let fact = |label: &str, value: String| Fact { label: label.into(), value };
+fn fact(label: &str, value: String) -> Fact {
+    Fact { label: label.into(), value }
+}
+
+fn summary(plan: &Plan, results: &Results) -> Vec<Fact> {
     let trials: usize = results.iter().map(BTreeMap::len).sum();
     let wanted = Selection::default().units(plan);
     let left = wanted.iter().filter(|(condition, trial)| !results[*condition].contains_key(trial)).count();
@@ -128,11 +156,20 @@ fn summary(plan: &Plan, results: &Results, judgements: &[(super::form::Strength,
     if left > 0 {
         facts.push(fact("Trials still missing", left.to_string()));
     }
+    facts
+}
+
+/// How many statements of each strength hold.
+fn held(judgements: &[Judgement]) -> Vec<Fact> {
+    let mut facts = Vec::new();
     for strength in [super::form::Strength::A, super::form::Strength::B, super::form::Strength::C] {
         let of = |verdict: &str| {
-            judgements.iter().filter(|(own, judged)| *own == strength && judged.verdict.words() == verdict).count()
+            judgements
+                .iter()
+                .filter(|own| own.claim.strength == strength && own.judged.verdict.words() == verdict)
+                .count()
         };
-        let all = judgements.iter().filter(|(own, _)| *own == strength).count();
+        let all = judgements.iter().filter(|own| own.claim.strength == strength).count();
         if all > 0 {
             let text = format!(
                 "{} of {all} hold, {} do not, {} open",
@@ -489,7 +526,7 @@ fn cells_in_full(plan: &Plan, results: &Results) -> Vec<Vec<String>> {
     core::iter::once(header).chain(plan.cells.iter().enumerate().map(row)).collect()
 }
 
-fn csv(rows: &[Vec<String>]) -> String {
+pub(crate) fn csv(rows: &[Vec<String>]) -> String {
     let cell = |text: &String| {
         if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.clone() }
     };

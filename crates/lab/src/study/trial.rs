@@ -1,9 +1,10 @@
 //! One trial: a condition's world with the seed of the trial, stepped to its end and looked at on the way.
 
 use super::form::{
-    ClusterQuantity, ClusterReading, ContactReading, CoverageReading, Partner, PathQuantity, Quantity, ShareReading,
-    Whose,
+    ClusterQuantity, ClusterReading, ContactReading, CoverageReading, InsideReading, Partner, PathQuantity, Quantity,
+    ShareReading, Statistic, Whose,
 };
+use super::meals::Meals;
 use super::plan::{Condition, Plan, entry_place};
 use crate::file::{Desk, Node};
 use crate::scenario::build;
@@ -139,7 +140,7 @@ where
         }
         world.step();
         for &k in &every_step {
-            readers[k].step(world.met());
+            readers[k].step(&world);
         }
     }
     Ok(Some(readers.iter().map(|reader| reader.value(&world).unwrap_or(f64::NAN)).collect()))
@@ -218,6 +219,14 @@ impl<'w, R: Scalar, const D: usize> Look<'w, R, D> {
         known.push((distance, clusters.clone()));
         clusters
     }
+    /// The living of a group, or all of them.
+    fn members(&self, group: Option<usize>) -> Vec<usize> {
+        let ids = group.map_or(0..usize::MAX, |group| {
+            let range = &self.world.frame().groups[group];
+            range.first as usize..(range.first + range.count) as usize
+        });
+        (0..self.ids.len()).filter(|&k| ids.contains(&self.ids[k])).collect()
+    }
     /// A sample of some of the living.
     fn part(&self, members: &[usize]) -> Sample<D> {
         Sample::new(self.space, members.iter().map(|&k| (self.positions[k], self.velocities[k])))
@@ -242,9 +251,9 @@ trait Reader<R: Scalar, const D: usize> {
     fn steps(&self) -> bool {
         false
     }
-    /// Takes in what each agent met in a step, by id.
-    fn step(&mut self, met: &[Met]) {
-        let _ = met;
+    /// Takes in a step that was made.
+    fn step(&mut self, world: &World<R, D>) {
+        let _ = world;
     }
     /// The number, at the end.
     fn value(&self, world: &World<R, D>) -> Option<f64>;
@@ -263,6 +272,10 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
             format!("no model here keeps a column `{name}`{hint}")
         })
     };
+    let group = |name: Option<&str>| {
+        let place = |name: &str| world.frame().groups.iter().position(|group| group.name == name);
+        name.map(|name| place(name).ok_or_else(|| format!("there is no group `{name}`"))).transpose()
+    };
     Ok(match of {
         Quantity::Metric(reading) => {
             let mut metric = measure::metrics::find::<D>(&reading.id).map_err(|error| error.to_string())?;
@@ -272,15 +285,17 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
             for (name, value) in &reading.parameters.0 {
                 metric.set(name, *value).map_err(|error| error.to_string())?;
             }
-            let groups = world.frame().groups;
-            let group = match &reading.group {
-                None => None,
-                Some(name) => {
-                    let found = groups.iter().position(|group| group.name == *name);
-                    Some(found.ok_or_else(|| format!("there is no group `{name}`"))?)
+            let group = group(reading.group.as_deref())?;
+            Box::new(OfMetric { metric, group, scale: reading.scale, values: Values::new(reading.statistic) })
+        }
+        Quantity::Inside(reading) => {
+            for (key, corner) in [("low", &reading.low), ("high", &reading.high)] {
+                if corner.len() != D {
+                    return Err(format!("`{key}` has {} coordinates in {D} dimensions", corner.len()));
                 }
-            };
-            Box::new(OfMetric { metric, group, scale: reading.scale, mean: Mean::default() })
+            }
+            let values = Values::new(reading.statistic);
+            Box::new(OfInside { group: group(reading.group.as_deref())?, reading: reading.clone(), values })
         }
         Quantity::Share(reading) => {
             let column = column(&reading.column)?;
@@ -315,6 +330,7 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
             curvature: Curvature::default(),
             mean: Mean::default(),
         }),
+        Quantity::Food(reading) => Box::new(Meals::new(reading, world)?),
         Quantity::ObstacleDistance(reading) => Box::new(OfObstacles { scale: reading.scale }),
     })
 }
@@ -338,30 +354,87 @@ impl Mean {
     }
 }
 
+/// What is made of the values of the looks; those without a value do not count.
+#[derive(Clone, Copy, Debug)]
+struct Values {
+    statistic: Statistic,
+    count: f64,
+    /// Sums of the first, the second and the fourth power.
+    sums: [f64; 3],
+    least: f64,
+    greatest: f64,
+    last: f64,
+}
+
+impl Values {
+    fn new(statistic: Statistic) -> Self {
+        Self {
+            statistic,
+            count: 0.0,
+            sums: [0.0; 3],
+            least: f64::INFINITY,
+            greatest: f64::NEG_INFINITY,
+            last: f64::NAN,
+        }
+    }
+    fn add(&mut self, value: Option<f64>) {
+        let Some(value) = value else { return };
+        self.count += 1.0;
+        let square = value * value;
+        self.sums.iter_mut().zip([value, square, square * square]).for_each(|(sum, power)| *sum += power);
+        (self.least, self.greatest, self.last) = (self.least.min(value), self.greatest.max(value), value);
+    }
+    fn value(&self) -> Option<f64> {
+        let [first, second, fourth] = self.sums.map(|sum| sum / self.count);
+        let value = match self.statistic {
+            Statistic::Mean => first,
+            Statistic::Deviation => (second - first * first).max(0.0).sqrt(),
+            Statistic::Least => self.least,
+            Statistic::Greatest => self.greatest,
+            Statistic::Last => self.last,
+            Statistic::Binder => 1.0 - fourth / (3.0 * second * second),
+        };
+        (self.count > 0.0).then_some(value)
+    }
+}
+
 struct OfMetric<const D: usize> {
     metric: Box<dyn Measure<D>>,
     group: Option<usize>,
     scale: f64,
-    mean: Mean,
+    values: Values,
 }
 
 impl<R: Scalar, const D: usize> Reader<R, D> for OfMetric<D> {
     fn look(&mut self, look: &Look<'_, R, D>) {
-        if !look.window {
-            return;
+        if look.window {
+            self.values.add(match self.group {
+                None => self.metric.on(&look.sample),
+                Some(group) => self.metric.on(&look.part(&look.members(Some(group)))),
+            });
         }
-        self.mean.add(match self.group {
-            None => self.metric.on(&look.sample),
-            Some(group) => {
-                let range = &look.world.frame().groups[group];
-                let ids = range.first as usize..(range.first + range.count) as usize;
-                let members: Vec<usize> = (0..look.ids.len()).filter(|&k| ids.contains(&look.ids[k])).collect();
-                self.metric.on(&look.part(&members))
-            }
-        });
     }
     fn value(&self, _: &World<R, D>) -> Option<f64> {
-        self.mean.value().map(|mean| self.scale * mean)
+        self.values.value().map(|value| self.scale * value)
+    }
+}
+
+struct OfInside {
+    group: Option<usize>,
+    reading: InsideReading,
+    values: Values,
+}
+
+impl<R: Scalar, const D: usize> Reader<R, D> for OfInside {
+    fn look(&mut self, look: &Look<'_, R, D>) {
+        if look.window {
+            let InsideReading { low, high, .. } = &self.reading;
+            let inside = |&k: &usize| (0..D).all(|a| (low[a]..=high[a]).contains(&look.positions[k].0[a]));
+            self.values.add(Some(look.members(self.group).into_iter().filter(inside).count() as f64));
+        }
+    }
+    fn value(&self, _: &World<R, D>) -> Option<f64> {
+        self.values.value().map(|value| self.reading.scale * value)
     }
 }
 
@@ -410,6 +483,19 @@ impl<R: Scalar, const D: usize> Reader<R, D> for OfColumn {
     }
 }
 
+impl<R: Scalar, const D: usize> Reader<R, D> for Meals<R, D> {
+    fn look(&mut self, _: &Look<'_, R, D>) {}
+    fn steps(&self) -> bool {
+        true
+    }
+    fn step(&mut self, world: &World<R, D>) {
+        Self::step(self, world);
+    }
+    fn value(&self, world: &World<R, D>) -> Option<f64> {
+        Self::value(self, world)
+    }
+}
+
 struct OfContacts {
     reading: ContactReading,
     /// What each agent met in the step before.
@@ -423,7 +509,8 @@ impl<R: Scalar, const D: usize> Reader<R, D> for OfContacts {
     fn steps(&self) -> bool {
         self.reading.events
     }
-    fn step(&mut self, met: &[Met]) {
+    fn step(&mut self, world: &World<R, D>) {
+        let met = world.met();
         self.before.resize(met.len(), Met::Nothing);
         for (now, before) in met.iter().zip(&mut self.before) {
             if *before == Met::Nothing {
@@ -577,5 +664,36 @@ impl<R: Scalar, const D: usize> Reader<R, D> for OfObstacles {
         let sample = Sample::new(wide_space(world.frame().space), centres);
         let distances = sample.nearest_distances()?;
         Some(self.scale * distances.iter().sum::<f64>() / distances.len() as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn statistics_of_looks() {
+        let of = |statistic, values: &[f64]| {
+            let mut all = Values::new(statistic);
+            values.iter().for_each(|&value| all.add(Some(value)));
+            all.add(None);
+            all.value()
+        };
+        let values = [3.0, -1.0, 1.0];
+        for (statistic, expected) in [
+            (Statistic::Mean, 1.0),
+            (Statistic::Deviation, (8f64 / 3.0).sqrt()),
+            (Statistic::Least, -1.0),
+            (Statistic::Greatest, 3.0),
+            (Statistic::Last, 1.0),
+            // mean x^4 = 83 / 3, mean x^2 = 11 / 3
+            (Statistic::Binder, 1.0 - 83.0 / 121.0),
+        ] {
+            let found = of(statistic, &values).unwrap_or(f64::NAN);
+            assert!((found - expected).abs() < 1e-12, "{statistic:?}: {found}, expected {expected}");
+            assert_eq!(of(statistic, &[]), None);
+        }
+        // a value that never changes: two thirds
+        assert_eq!(of(Statistic::Binder, &[0.5; 4]), Some(1.0 - 1.0 / 3.0));
     }
 }

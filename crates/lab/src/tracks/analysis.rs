@@ -106,11 +106,11 @@ pub fn known() -> impl Iterator<Item = (&'static str, &'static [Parameter])> {
 }
 
 /// The parameters that the user has to give: those without a default, and those with a default that is a length, a time or
-/// a speed, which fits no recording in particular.
+/// a speed, which fits no recording in particular. Not those that are without limits where none is given.
 fn open(parameters: &'static [Parameter], file: &TracksFile) -> Vec<&'static str> {
     let given = |name: &str| file.measure.parameters.0.iter().any(|(other, _)| other == name);
     let plain = |unit: &str| matches!(unit, "" | "1" | "deg" | "rad" | "frames");
-    let wanting = |p: &&Parameter| !given(p.name) && (p.default.is_none() || !plain(p.unit));
+    let wanting = |p: &&Parameter| !given(p.name) && p.default.is_none_or(|value| value.is_finite() && !plain(p.unit));
     parameters.iter().filter(wanting).map(|p| p.name).collect()
 }
 

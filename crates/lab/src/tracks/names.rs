@@ -77,7 +77,7 @@ pub fn plain(name: &str) -> String {
     out
 }
 
-/// A name and the unit it carries: `x/m`, `X (cm)`, `x [px]`.
+/// A name and the unit it carries: `x/m`, `X (cm)`, `x [px]`, `x_mm`. `x_m` may also be the x of somebody called m.
 pub fn split_unit(name: &str) -> (&str, Option<&str>) {
     let name = name.trim();
     for (open, close) in [('(', ')'), ('[', ']')] {
@@ -88,7 +88,11 @@ pub fn split_unit(name: &str) -> (&str, Option<&str>) {
         }
     }
     match name.rsplit_once('/') {
-        Some((before, unit)) if LENGTHS.iter().any(|(known, _)| known.eq_ignore_ascii_case(unit)) => {
+        Some((before, unit)) if length_unit(unit).is_some() => return (before, Some(unit)),
+        _ => {}
+    }
+    match name.rsplit_once('_') {
+        Some((before, unit)) if before.len() == 1 && unit.len() > 1 && length_unit(unit).is_some() => {
             (before, Some(unit))
         }
         _ => (name, None),
@@ -218,6 +222,8 @@ mod tests {
             (" Frame Idx ", "frame_idx", None),
             ("speed (cm/s)", "speed", Some("cm/s")),
             ("a/b", "a_b", None),
+            ("x_mm", "x", Some("mm")),
+            ("x_m", "x_m", None),
         ] {
             assert_eq!((plain(name).as_str(), split_unit(name).1), (expected, unit), "{name}");
         }

@@ -248,12 +248,15 @@ fn what_is_open_names_its_option() {
         ("strange.csv", "when,who,east,north\n1,2,3,4\n", at(1.0), "--columns frame=frame"),
         ("names.csv", frames, Ask { fps: Some(Rate::Known(1.0)), ..ask(&[("id", "idd")]) }, "did you mean `id`"),
         ("units.csv", "frame,id,x/m,y/cm\n0,1,0,0\n", at(1.0), "mixed units"),
+        ("side.csv", "frame,id,x_m,y_m\n0,1,0,0\n", at(1.0), "--columns x=x_m,y=y_m"),
         ("both.csv", "frame,id,x,y,lon,lat\n0,1,0,0,1,1\n", at(1.0), "--columns longitude="),
         ("half.csv", "frame,id,x,y\n0.5,1,0,0\n", at(1.0), "time=frame"),
     ] {
         let error = refuses(name, text.as_bytes(), &ask);
         assert!(error.contains(what), "{name}: {error}");
     }
+    let recording = reads("suffix.csv", "frame,id,x_mm,y_mm\n0,1,0,0\n0,2,1,0\n", &at(1.0));
+    assert_eq!((plane(&recording).names().len(), recording.understood.unit.as_str()), (2, "mm"));
     let unknown = Ask { fps: Some(Rate::Unknown), ..Ask::default() };
     assert_eq!(reads("rate.csv", frames, &unknown).understood.time_unit, "frame");
     let first = Ask { keep_first: true, ..at(1.0) };

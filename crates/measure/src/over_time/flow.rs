@@ -1,6 +1,6 @@
 //! How many pass a line in a time.
 
-use super::line::{Crossing, X1, X2, Y1, Y2, crossings, speed};
+use super::line::{Crossing, X1, X2, Y1, Y2, crossings, later, speed};
 use crate::metric::takes;
 use crate::sample::mean;
 use crate::{Bounds, Parameter};
@@ -68,8 +68,12 @@ impl TrackMetric for Flow {
         let length = Vector([self.x2 - self.x1, self.y2 - self.y1]).length();
         let time = |crossing: &Crossing| tracks.times()[crossing.frame];
         let speed = |passages: &[Crossing]| {
-            let speeds = passages.iter().filter_map(|passage| speed(tracks, passage, self.speed_frames as i64));
-            mean(speeds).unwrap_or(f64::NAN)
+            let frames = self.speed_frames as i64;
+            let of = |passage: &Crossing| {
+                let place = |shift| later(tracks, passage.frame, passage.individual, shift);
+                Some(speed(tracks, place(-frames)?, place(frames)?))
+            };
+            mean(passages.iter().filter_map(of)).unwrap_or(f64::NAN)
         };
         if passages.len() > 1 {
             let flow = (passages.len() as f64 - 1.0) / (time(last) - time(first));

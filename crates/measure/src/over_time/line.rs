@@ -52,14 +52,20 @@ pub(super) fn crossings<const D: usize>(tracks: &Tracks<D>, from: [f64; 2], to: 
     crossings
 }
 
-/// Speed of somebody who crosses, from so many frames before to so many after. `None` where one of them is missing.
-pub(super) fn speed<const D: usize>(tracks: &Tracks<D>, crossing: &Crossing, frames: i64) -> Option<f64> {
-    let number = tracks.frames()[crossing.frame];
-    let find = |shift: i64| {
-        let frame = tracks.frames().binary_search(&(number + shift * tracks.step())).ok()?;
-        Some((frame, tracks.row(frame, crossing.individual as u32)?))
-    };
-    let ((before, old), (after, new)) = (find(-frames)?, find(frames)?);
-    let way = tracks.offset(tracks.position(old), tracks.position(new)).length();
-    Some(way / (tracks.times()[after] - tracks.times()[before]))
+/// Frame (by its place in the list) and row of an individual so many frames later. `None` where it is not found there.
+pub(super) fn later<const D: usize>(
+    tracks: &Tracks<D>,
+    frame: usize,
+    individual: usize,
+    frames: i64,
+) -> Option<(usize, usize)> {
+    let number = tracks.frames()[frame] + frames * tracks.step();
+    let frame = tracks.frames().binary_search(&number).ok()?;
+    Some((frame, tracks.row(frame, individual as u32)?))
+}
+
+/// Speed from one frame and row to another, of the same individual.
+pub(super) fn speed<const D: usize>(tracks: &Tracks<D>, from: (usize, usize), to: (usize, usize)) -> f64 {
+    let way = tracks.offset(tracks.position(from.1), tracks.position(to.1)).length();
+    way / (tracks.times()[to.0] - tracks.times()[from.0])
 }

@@ -44,6 +44,7 @@ over_time! {
     flow::Flow;
     classic_density::ClassicDensity;
     voronoi_density::VoronoiDensity;
+    speed_in_area::SpeedInArea;
     mean_median_distance::MeanMedianDistance;
 }
 

@@ -1,8 +1,8 @@
 //! Contacts after everyone's motion: walls and obstacles first, then bodies.
 
-use crate::engine::kernel::{Close, minimal_lanes};
+use crate::engine::kernel::{Close, mask_of, minimal_lanes};
 use crate::engine::world::World;
-use crate::motion::{BLOCK, dot, splat};
+use crate::motion::{BLOCK, WIDEST, dot, splat};
 use crate::parameters::Scalar;
 use crate::physics::{Contact, Met, free_of_environment, resolve};
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
@@ -192,26 +192,45 @@ impl<R: Scalar, const D: usize> World<R, D> {
     #[inline(always)]
     fn touches_close(&self, row: usize, places: &[Vec<R>; D], limit: R) -> bool {
         let blocks = self.close.blocks;
-        for (block, &bits) in self.close.marks[row * blocks..(row + 1) * blocks].iter().enumerate() {
-            let mut bits = bits;
+        // four blocks at a time, since most are empty
+        let (fours, rest) = self.close.marks[row * blocks..(row + 1) * blocks].as_chunks::<4>();
+        let touches = |first: usize, mut bits: u64| {
             while bits != 0 {
-                if self.touches_other(row, block * BLOCK + bits.trailing_zeros() as usize, places, limit) {
+                if self.touches_other(row, first * BLOCK + bits.trailing_zeros() as usize, places, limit) {
                     return true;
                 }
                 bits &= bits - 1;
             }
+            false
+        };
+        for (four, &[a, b, c, d]) in fours.iter().enumerate() {
+            let [a, b, c, d] = [a, b, c, d].map(u64::from);
+            if touches(4 * four, a | b << BLOCK | c << (2 * BLOCK) | d << (3 * BLOCK)) {
+                return true;
+            }
         }
-        false
+        let first = 4 * fours.len();
+        rest.iter().enumerate().any(|(block, &bits)| touches(first + block, u64::from(bits)))
     }
 
     /// So close together two must be before the step to touch after it, whoever they are and however they move.
-    fn closest(&self, reach: R) -> R {
-        let mut farthest = R::ZERO;
-        for row in 0..self.now.len() {
-            let moved = self.space.minimal(self.next.position(row) - self.now.position(row));
-            farthest = farthest.most(moved.length_squared());
+    #[inline(always)]
+    fn closest<L: Lanes<R>>(&self, reach: R) -> R {
+        let mut farthest = L::splat(R::ZERO);
+        let (now, next) = (&self.now.position, &self.next.position);
+        for first in (0..self.now.len()).step_by(L::WIDTH) {
+            let mut moved = [farthest; D];
+            for a in 0..D {
+                let step = L::load(&next[a][first..]) - L::load(&now[a][first..]);
+                moved[a] = minimal_lanes(&self.space, a, step);
+            }
+            let there = L::Mask::from_bits(mask_of(self.now.len() - first));
+            farthest = L::choose(there, farthest.greater(dot(&moved, &moved)), farthest);
         }
-        (reach + farthest.root() + farthest.root()) * R::of(1.000_001)
+        let mut each = [R::ZERO; WIDEST];
+        farthest.store(&mut each);
+        let farthest = each.into_iter().fold(R::ZERO, R::most).root();
+        (reach + farthest + farthest) * R::of(1.000_001)
     }
 
     /// Pushes overlapping bodies apart by half the overlap each, never through a wall.
@@ -319,7 +338,7 @@ impl<R: Scalar, const D: usize> Task<R> for RefuseBodies<'_, R, D> {
     fn run<L: Lanes<R>>(self) {
         let Self { world, places, limit } = self;
         let limits = L::splat(limit);
-        let closest = if world.close.blocks > 0 { world.closest(limit.root()) } else { R::INFINITY };
+        let closest = if world.close.blocks > 0 { world.closest::<L>(limit.root()) } else { R::INFINITY };
         let images = world.space.is_periodic();
         for group in 0..world.groups.len() {
             let refuses = world.groups[group].contact == Contact::Refuse;

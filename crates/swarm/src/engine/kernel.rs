@@ -1,8 +1,9 @@
 //! One group's way through the stages: chosen once, called once per block of agents.
 
+use crate::engine::coarse::Coarse;
 use crate::motion::{
-    Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Marks, Me, MeLanes, Model, Motion, NearItem, NearObstacle,
-    Other, Percepts, Start, Stream, Summed, Trace, WIDEST, splat,
+    Abreast, Agents, Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Me, MeLanes, Model, Motion, NearItem,
+    NearObstacle, Other, Percepts, Rough, Single, Start, Stream, Summed, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::Mobility;
@@ -38,6 +39,8 @@ pub(crate) struct View<'a, R, const D: usize> {
     pub(crate) others: &'a Columns<R, D>,
     /// Unit headings of `now`, where a streaming law uses them.
     pub(crate) heading: &'a [Vec<R>; D],
+    /// Places of `others` in single precision, where that is of use.
+    pub(crate) coarse: Option<&'a Coarse<D>>,
     pub(crate) index: Index<'a, R, D>,
     pub(crate) space: &'a Space<R, D>,
     pub(crate) obstacles: &'a Obstacles<R, D>,
@@ -58,6 +61,18 @@ impl<R: Scalar, const D: usize> View<'_, R, D> {
     #[inline(always)]
     fn dead(&self, columns: &Columns<R, D>, row: usize) -> bool {
         self.mortality.is_some_and(|c| columns.state[c][row] <= R::ZERO)
+    }
+    /// The unit heading of a row of `now`.
+    #[inline(always)]
+    fn heading_of(&self, row: usize) -> Vector<R, D> {
+        if self.heading[0].is_empty() {
+            return self.now.velocity(row).unit();
+        }
+        let mut heading = Vector::ZERO;
+        for a in 0..D {
+            heading.0[a] = self.heading[a][row];
+        }
+        heading
     }
     pub(crate) fn body_radius(&self, id: u32) -> R {
         let group = self.bodies.partition_point(|&(first, _)| first <= id);
@@ -162,10 +177,17 @@ pub(crate) struct Scratch<R, const D: usize> {
     squared: Lined<R>,
     sets: Vec<u32>,
     /// The named sets by blocks of percepts, for laws that ask for marks, and whoever is inside the first ring.
-    marks: Vec<Marks>,
+    marks: [Vec<u16>; RINGS],
     close: Vec<u16>,
     /// Outer radius of that ring where all rows were marked in the last decision, else 0.
     close_within: R,
+    /// Whether the percepts are all rows; whether their displacements are not written down, and then all rows.
+    whole: bool,
+    rough: bool,
+    everyone: Vec<u32>,
+    /// Then, the squared distances in single precision, and how wrong they may be.
+    rough_squared: Lined<f32>,
+    margin: f32,
     chosen: Vec<bool>,
     order: Vec<u32>,
     selection: selection::Scratch<R, D>,
@@ -177,6 +199,8 @@ pub(crate) struct Scratch<R, const D: usize> {
     pub(crate) body: Vec<R>,
     pub(crate) robot: RobotScratch<R>,
     segments: Vec<Segment<R, D>>,
+    /// The agents of a sweep that move abreast.
+    agents: Agents<R, D>,
 }
 
 impl<R: Scalar, const D: usize> Scratch<R, D> {
@@ -187,9 +211,14 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             offset: core::array::from_fn(|_| Lined::new()),
             squared: Lined::new(),
             sets: Vec::new(),
-            marks: Vec::new(),
+            marks: [const { Vec::new() }; RINGS],
             close: Vec::new(),
             close_within: R::ZERO,
+            whole: false,
+            rough: false,
+            everyone: Vec::new(),
+            rough_squared: Lined::new(),
+            margin: 0.0,
             chosen: Vec::new(),
             order: Vec::new(),
             selection: selection::Scratch::default(),
@@ -199,6 +228,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             body: Vec::new(),
             robot: RobotScratch::default(),
             segments: Vec::new(),
+            agents: Agents::new(0),
         }
     }
     /// Makes room for so many more, and for a full vector of lanes after them.
@@ -209,7 +239,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             self.row.resize(2 * needed, 0);
             self.offset.iter_mut().for_each(|o| o.grow(2 * needed));
             self.squared.grow(2 * needed);
-            self.marks.resize(2 * needed / BLOCK, [0; RINGS]);
+            self.marks.iter_mut().for_each(|marks| marks.resize(2 * needed / BLOCK, 0));
             self.close.resize(2 * needed / BLOCK, 0);
         }
     }
@@ -228,11 +258,11 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
     }
     /// Marks what selection put into sets.
     fn mark(&mut self) {
-        for (marks, block) in self.marks.iter_mut().zip(self.sets.chunks(BLOCK)) {
-            *marks = [0; RINGS];
-            for (l, &sets) in block.iter().enumerate() {
-                for (s, bits) in marks.iter_mut().enumerate() {
-                    *bits |= ((sets >> s & 1) as u16) << l;
+        for (b, block) in self.sets.chunks(BLOCK).enumerate() {
+            for (s, marks) in self.marks.iter_mut().enumerate() {
+                marks[b] = 0;
+                for (l, &sets) in block.iter().enumerate() {
+                    marks[b] |= ((sets >> s & 1) as u16) << l;
                 }
             }
         }
@@ -377,6 +407,10 @@ pub(crate) trait Kernel<R: Scalar, const D: usize>: Send + Sync {
     fn stages(&self) -> &Stages<R, D>;
     /// Whether the law runs neighbour by neighbour in lanes, and then whether it wants headings.
     fn streams(&self) -> Option<bool>;
+    /// Whether the law has rows marked that are in its rings.
+    fn marks(&self) -> bool {
+        false
+    }
     /// Completes an initial state.
     fn complete(&self, start: &mut Start<'_, R, D>);
     /// Decides and moves this group's members among the rows.
@@ -659,7 +693,10 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         } else if !matches!(view.index, Index::Live(_)) {
             let segments = &everyone(view);
             scratch.close_within = rings.outer[0].root();
-            if view.space.is_periodic() {
+            scratch.whole = true;
+            if self.mark_coarse(view, row, heading, rings, scratch) {
+                scratch.rough = true;
+            } else if view.space.is_periodic() {
                 with_lanes(level(), Mark::<R, D, ALL> { view, row, heading, rings, segments, scratch });
             } else {
                 with_lanes(level(), Mark::<R, D, ALL_OPEN> { view, row, heading, rings, segments, scratch });
@@ -668,12 +705,43 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         scratch.segments = segments;
         if view.mortality.is_some() {
             for k in 0..scratch.found {
-                if view.dead(view.others, scratch.row[k] as usize) {
-                    scratch.marks[k / BLOCK].iter_mut().for_each(|bits| *bits &= !(1 << (k % BLOCK)));
+                let row = if scratch.rough { k } else { scratch.row[k] as usize };
+                if view.dead(view.others, row) {
+                    scratch.marks.iter_mut().for_each(|marks| marks[k / BLOCK] &= !(1 << (k % BLOCK)));
                 }
             }
         }
         !matches!(view.index, Index::Live(_))
+    }
+    /// Marks the members of rings in single precision; false where that cannot be told.
+    #[inline(always)]
+    fn mark_coarse(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        heading: Vector<R, D>,
+        rings: &Rings<R>,
+        scratch: &mut Scratch<R, D>,
+    ) -> bool {
+        let Some(coarse) = view.coarse else { return false };
+        let agents = view.others.len();
+        scratch.reserve(agents);
+        if scratch.everyone.len() < agents {
+            scratch.everyone.extend(scratch.everyone.len() as u32..agents as u32);
+            scratch.rough_squared.grow(agents.next_multiple_of(BLOCK));
+        }
+        let Scratch { rough_squared, marks, close, .. } = &mut *scratch;
+        let Some(task) = coarse.about(row, heading, rings, rough_squared, marks.each_mut().map(|m| &mut m[..]), close)
+        else {
+            return false;
+        };
+        let margin = task.margin;
+        if !with_lanes(level(), task) {
+            return false;
+        }
+        scratch.margin = margin;
+        scratch.found = agents;
+        true
     }
     /// The limits and errors of ideal sensing. Returns whether others' velocities were changed too.
     #[inline(never)]
@@ -969,7 +1037,8 @@ impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Mark<'_, '_, R, D, WA
             for a in 0..D {
                 position[a] = &view.others.position[a][..end + PADDING];
             }
-            let (rows, squares, marks, close) = (&mut rows[..], &mut squares[..], &mut marks[..], &mut close[..]);
+            let (rows, squares, close) = (&mut rows[..], &mut squares[..], &mut close[..]);
+            let marks = &mut marks.each_mut().map(|m| &mut m[..]);
             let offsets = &mut offsets.each_mut().map(|o| &mut o[..]);
             let shift: [L; D] = splat(segment.shift);
             while first < end {
@@ -995,7 +1064,7 @@ impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Mark<'_, '_, R, D, WA
                 }
                 let mut inside = 0;
                 for s in 0..RINGS {
-                    marks[at / BLOCK][s] = (nearer[s] & !inside & (seen | all_round[s]) & others) as u16;
+                    marks[s][at / BLOCK] = (nearer[s] & !inside & (seen | all_round[s]) & others) as u16;
                     inside = nearer[s];
                 }
                 close[at / BLOCK] = (nearer[0] & others) as u16;
@@ -1046,22 +1115,25 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         matches!(&self.stages.sensing, Sensing::Scanner(robot) if robot.association.is_some())
     }
 
-    /// One decision. `trace` is given by explanations alone; a step is compiled without it.
+    /// Everything that comes before the law, and then what is to be done with it. `trace` is given by explanations alone; a
+    /// step is compiled without it.
     #[inline(always)]
-    fn decide(
+    fn perceive<P: Perceiving<R, D>>(
         &self,
         view: &View<'_, R, D>,
         row: usize,
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
         trace: Option<&mut Trace<R, D>>,
-    ) -> Motion<R, D> {
+        then: P,
+    ) -> P::Found {
         let stages = &self.stages;
         let mut indirect = false;
         // an explanation goes the long way, over lists, which comes to the same
         let quick = M::MARKS && trace.is_none();
         scratch.close_within = R::ZERO;
-        let heading = view.now.velocity(row).unit();
+        (scratch.whole, scratch.rough) = (false, false);
+        let heading = view.heading_of(row);
         let marked = match &stages.rings {
             Some(rings) if quick => stages.mark(view, row, heading, rings, scratch),
             _ => false,
@@ -1087,11 +1159,17 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         let seen = Percepts {
             offset: firsts(&scratch.offset, count),
             squared: &scratch.squared[..count],
-            row: &scratch.row[..scratch.found],
+            row: if scratch.rough { &scratch.everyone[..scratch.found] } else { &scratch.row[..scratch.found] },
             sets: if marked { &[] } else { &scratch.sets },
-            marks: &scratch.marks[..scratch.found.div_ceil(BLOCK)],
+            marks: firsts(&scratch.marks, scratch.found.div_ceil(BLOCK)),
             others: if indirect { &scratch.sensed } else { view.others },
             columns: &stages.columns,
+            whole: scratch.whole,
+            rough: if scratch.rough {
+                Some(Rough { from: position, squared: &scratch.rough_squared, margin: scratch.margin })
+            } else {
+                None
+            },
         };
         let draws = Draws::new(view.seed, view.step, view.now.id[row], view.injected);
         let mut me = Me {
@@ -1103,9 +1181,102 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             around: stages.around(view, row, position, &obstacles),
             trace,
         };
-        let motion = self.law.decide(&mut me, &seen, &draws);
+        let found = then.by(&mut me, &seen, &draws);
         scratch.obstacles = obstacles;
-        stages.wanted(view, row, motion)
+        found
+    }
+
+    /// One decision.
+    #[inline(always)]
+    fn decide(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+        trace: Option<&mut Trace<R, D>>,
+    ) -> Motion<R, D> {
+        let motion = self.perceive(view, row, scratch, memory, trace, Deciding(&self.law));
+        self.stages.wanted(view, row, motion)
+    }
+
+    /// The memory of an agent of this sweep.
+    ///
+    /// # Safety
+    /// No other worker sweeps this row.
+    #[allow(clippy::mut_from_ref, reason = "a writer is shared by workers that each own their rows")]
+    #[inline(always)]
+    unsafe fn memory<'m>(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        out: &'m Writer<'_, R, D>,
+    ) -> Option<&'m mut Memory<R>> {
+        let id = view.now.id[row] as usize;
+        // SAFETY: an agent's memory is touched by the sweep of its row alone.
+        if self.remembers() { unsafe { out.memory.part(id..id + 1) }.first_mut() } else { None }
+    }
+
+    /// Whether a row is to decide; the dead are written as they are.
+    #[inline(always)]
+    fn decides(&self, view: &View<'_, R, D>, row: usize, out: &Writer<'_, R, D>) -> bool {
+        if !self.stages.mine(view.now.id[row]) {
+            return false;
+        }
+        let dead = view.dead(view.now, row);
+        if dead {
+            // SAFETY: rows of one sweep are written by it alone.
+            unsafe { out.write(row, view.now.position(row), view.now.velocity(row)) };
+        }
+        !dead
+    }
+
+    /// Free space all round that the last agent that perceived knows of.
+    #[inline(always)]
+    fn room(&self, scratch: &Scratch<R, D>) -> R {
+        match (&self.stages.sensing, self.stages.obstacle_reach) {
+            (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() => reach - self.stages.radius,
+            _ => R::ZERO,
+        }
+    }
+
+    /// Notes who is close to the last agent that perceived.
+    #[inline(always)]
+    fn note_close(row: usize, out: &Writer<'_, R, D>, scratch: &Scratch<R, D>) {
+        if out.close.blocks > 0 && scratch.close_within > R::ZERO {
+            let blocks = out.close.blocks;
+            // SAFETY: rows of one sweep are written by it alone.
+            unsafe {
+                out.close.marks.part(row * blocks..(row + 1) * blocks).copy_from_slice(&scratch.close[..blocks]);
+                out.close.within.write(row, scratch.close_within);
+            }
+        }
+    }
+
+    /// Moves an agent as it wants to, as far as its body can, and writes its next state; its columns stand in the scratch.
+    #[inline(always)]
+    fn perform(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        wanted: Motion<R, D>,
+        room: R,
+        out: &Writer<'_, R, D>,
+        scratch: &mut Scratch<R, D>,
+    ) {
+        let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &mut scratch.body);
+        if !self.stages.plain && velocity != wanted.velocity {
+            self.law.performed(&mut scratch.own, velocity);
+        }
+        // a move that is shorter than the free space around it meets nothing
+        let moved = (place - view.now.position(row)).length_squared();
+        // SAFETY: rows of one sweep are written by it alone.
+        unsafe {
+            out.clear.write(row, room > R::ZERO && moved < room * room);
+            out.write(row, place, velocity);
+            out.write_state(row, &self.stages.columns, &scratch.own);
+            out.write_state(row, &self.stages.body_columns, &scratch.body);
+        }
     }
 
     #[inline(always)]
@@ -1117,63 +1288,41 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         scratch: &mut Scratch<R, D>,
     ) {
         for row in rows {
-            if !self.stages.mine(view.now.id[row]) {
+            if !self.decides(view, row, out) {
                 continue;
             }
-            if view.dead(view.now, row) {
-                // SAFETY: rows of one sweep are written by it alone.
-                unsafe { out.write(row, view.now.position(row), view.now.velocity(row)) };
-                continue;
-            }
-            let id = view.now.id[row] as usize;
-            let memory = if self.remembers() {
-                // SAFETY: an agent's memory is touched by the sweep of its row alone.
-                unsafe { out.memory.part(id..id + 1) }.first_mut()
-            } else {
-                None
-            };
+            // SAFETY: rows of one sweep are its own.
+            let memory = unsafe { self.memory(view, row, out) };
             let wanted = self.decide(view, row, scratch, memory, None);
-            let mut body = core::mem::take(&mut scratch.body);
-            let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &mut body);
-            if !self.stages.plain && velocity != wanted.velocity {
-                self.law.performed(&mut scratch.own, velocity);
-            }
-            // a move that is shorter than the free space around it meets nothing
-            let room = match (&self.stages.sensing, self.stages.obstacle_reach) {
-                (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() => reach - self.stages.radius,
-                _ => R::ZERO,
-            };
-            let moved = (place - view.now.position(row)).length_squared();
-            // SAFETY: as above.
-            unsafe {
-                if out.close.blocks > 0 && scratch.close_within > R::ZERO {
-                    let blocks = out.close.blocks;
-                    out.close.marks.part(row * blocks..(row + 1) * blocks).copy_from_slice(&scratch.close[..blocks]);
-                    out.close.within.write(row, scratch.close_within);
-                }
-                out.clear.write(row, room > R::ZERO && moved < room * room);
-                out.write(row, place, velocity);
-                out.write_state(row, &self.stages.columns, &scratch.own);
-                out.write_state(row, &self.stages.body_columns, &body);
-            }
-            scratch.body = body;
+            Self::note_close(row, out, scratch);
+            self.perform(view, row, wanted, self.room(scratch), out, scratch);
         }
     }
 }
 
-struct SweepListed<'a, 'b, M, R, const D: usize> {
-    kernel: &'a Listed<M, R, D>,
-    view: &'a View<'b, R, D>,
-    rows: Range<usize>,
-    out: &'a Writer<'b, R, D>,
-    scratch: &'a mut Scratch<R, D>,
+/// What is done with what an agent perceives. (A closure would not be compiled for the lanes.)
+trait Perceiving<R: Scalar, const D: usize> {
+    type Found;
+    fn by(self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Self::Found;
 }
 
-impl<R: Scalar, const D: usize, M: Model<R, D>> Task<R> for SweepListed<'_, '_, M, R, D> {
-    type Output = ();
+/// The law decides.
+struct Deciding<'a, M>(&'a M);
+impl<R: Scalar, const D: usize, M: Model<R, D>> Perceiving<R, D> for Deciding<'_, M> {
+    type Found = Motion<R, D>;
     #[inline(always)]
-    fn run<L: Lanes<R>>(self) {
-        self.kernel.sweep_rows(self.view, self.rows, self.out, self.scratch);
+    fn by(self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D> {
+        self.0.decide(me, seen, draws)
+    }
+}
+
+/// The law finds out what the agent wishes.
+struct Wishing<'a, M>(&'a M);
+impl<R: Scalar, const D: usize, M: Abreast<R, D>> Perceiving<R, D> for Wishing<'_, M> {
+    type Found = M::Wish;
+    #[inline(always)]
+    fn by(self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> M::Wish {
+        self.0.wish(me, seen, draws)
     }
 }
 
@@ -1188,11 +1337,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         self.law.complete(start);
     }
     fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>) {
-        if M::MARKS {
-            with_lanes(level(), SweepListed { kernel: self, view, rows, out, scratch });
-        } else {
-            self.sweep_rows(view, rows, out, scratch);
-        }
+        self.sweep_rows(view, rows, out, scratch);
     }
     fn one(
         &self,
@@ -1222,6 +1367,154 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         let indirect = self.stages.detect(view, row, scratch, None);
         self.stages.select(view, row, scratch, indirect);
         scratch.sets.iter().filter(|&&bits| bits != 0).count()
+    }
+}
+
+/// A law whose agents look each for itself and move abreast.
+pub(crate) struct SideBySide<M, R, const D: usize> {
+    pub(crate) listed: Listed<Single<M>, R, D>,
+}
+
+struct SweepSideBySide<'a, 'b, M, R, const D: usize> {
+    kernel: &'a SideBySide<M, R, D>,
+    view: &'a View<'b, R, D>,
+    rows: Range<usize>,
+    out: &'a Writer<'b, R, D>,
+    scratch: &'a mut Scratch<R, D>,
+}
+
+impl<R: Scalar, const D: usize, M: Abreast<R, D>> Task<R> for SweepSideBySide<'_, '_, M, R, D> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) {
+        let Self { kernel, view, rows, out, scratch } = self;
+        let listed = &kernel.listed;
+        let mut agents = core::mem::replace(&mut scratch.agents, Agents::new(0));
+        agents.own.resize(listed.stages.columns.len(), [R::ZERO; WIDEST]);
+        let mut wishes = [M::Wish::default(); WIDEST];
+        // rows that follow each other, moved exactly as wished
+        let stages = &listed.stages;
+        let together = stages.plain
+            && stages.noise.computation == R::ZERO
+            && stages.body_columns.is_empty()
+            && view.mortality.is_none()
+            && view.bodies.len() == 1;
+        let (mut places, mut rooms, mut count) = ([0; WIDEST], [R::ZERO; WIDEST], 0);
+        for row in rows.clone() {
+            if listed.decides(view, row, out) {
+                // SAFETY: rows of one sweep are its own.
+                let memory = unsafe { listed.memory(view, row, out) };
+                wishes[count] = listed.perceive(view, row, scratch, memory, None, Wishing(&listed.law.0));
+                Listed::<Single<M>, R, D>::note_close(row, out, scratch);
+                agents.put(count, view.now.velocity(row), &scratch.own);
+                (places[count], rooms[count]) = (row, listed.room(scratch));
+                count += 1;
+            }
+            if count < WIDEST && row + 1 < rows.end {
+                continue;
+            }
+            for first in (0..count).step_by(L::WIDTH) {
+                listed.law.0.conclude::<L>(first, &wishes, &mut agents);
+            }
+            if !(together && kernel.move_together::<L>(view, places[0], count, &agents, &rooms, out)) {
+                for k in 0..count {
+                    let row = places[k];
+                    listed.stages.load(view.now, row, scratch);
+                    let motion = agents.take(k, &mut scratch.own);
+                    listed.perform(view, row, listed.stages.wanted(view, row, motion), rooms[k], out, scratch);
+                }
+            }
+            count = 0;
+        }
+        scratch.agents = agents;
+    }
+}
+
+impl<R: Scalar, const D: usize, M: Abreast<R, D>> SideBySide<M, R, D> {
+    /// Moves consecutive rows and writes their next state; false where they cannot be moved together: they are then to be
+    /// written one by one.
+    #[inline(always)]
+    fn move_together<L: Lanes<R>>(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        count: usize,
+        agents: &Agents<R, D>,
+        rooms: &[R; WIDEST],
+        out: &Writer<'_, R, D>,
+    ) -> bool {
+        let zero = L::splat(R::ZERO);
+        for first in (0..count).step_by(L::WIDTH) {
+            let (mut velocity, mut displacement) = ([[R::ZERO; WIDEST]; D], [[R::ZERO; WIDEST]; D]);
+            let mut moved = zero;
+            for a in 0..D {
+                let step = L::load(&agents.displacement[a][first..]);
+                step.store(&mut displacement[a]);
+                L::load(&agents.velocity[a][first..]).store(&mut velocity[a]);
+                let from = L::load(&view.now.position[a][row + first..]);
+                let way = (from + step) - from;
+                moved = if a == 0 { way * way } else { moved + way * way };
+            }
+            let some = (count - first).min(L::WIDTH);
+            if !perform_together::<R, L, D>(view, row + first, some, &velocity, &displacement, out) {
+                return false;
+            }
+            // a move that is shorter than the free space around it meets nothing
+            let room = L::load(&rooms[first..]);
+            let clear = zero.less(room).and(moved.less(room * room)).bits();
+            for k in 0..some {
+                // SAFETY: rows of one sweep are written by it alone.
+                unsafe { out.clear.write(row + first + k, clear >> k & 1 == 1) };
+            }
+        }
+        for (&column, own) in self.listed.stages.columns.iter().zip(&agents.own) {
+            // SAFETY: as above.
+            unsafe { out.state[column].part(row..row + count).copy_from_slice(&own[..count]) };
+        }
+        true
+    }
+}
+
+impl<R: Scalar, const D: usize, M: Abreast<R, D>> Kernel<R, D> for SideBySide<M, R, D> {
+    fn stages(&self) -> &Stages<R, D> {
+        self.listed.stages()
+    }
+    fn streams(&self) -> Option<bool> {
+        None
+    }
+    fn marks(&self) -> bool {
+        self.listed.stages.rings.is_some()
+    }
+    fn complete(&self, start: &mut Start<'_, R, D>) {
+        self.listed.complete(start);
+    }
+    fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>) {
+        with_lanes(level(), SweepSideBySide { kernel: self, view, rows, out, scratch });
+    }
+    fn one(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+    ) -> Motion<R, D> {
+        self.listed.one(view, row, scratch, memory)
+    }
+    fn explained(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+        trace: &mut Trace<R, D>,
+    ) -> Motion<R, D> {
+        self.listed.explained(view, row, scratch, memory, trace)
+    }
+    fn performed(&self, own: &mut [R], velocity: Vector<R, D>) {
+        self.listed.performed(own, velocity);
+    }
+    fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
+        self.listed.neighbours(view, row, scratch)
     }
 }
 
@@ -1388,25 +1681,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             // SAFETY: rows of one sweep are written by it alone.
             unsafe { out.write_state(row + k, &stages.columns, &scratch.own) };
         }
-        let zero = L::splat(R::ZERO);
-        let mut fine = L::Mask::all_of(true);
-        let mut place = [zero; D];
-        for a in 0..D {
-            place[a] = L::load(&view.now.position[a][row..]) + L::load(&displacement[a]);
-            fine = match view.space.edges[a] {
-                Edge::Periodic(length) => fine.and(zero.less_equal(place[a])).and(place[a].less(L::splat(length))),
-                _ => fine.and(finite_lanes::<R, L>(place[a])),
-            };
-            let moving = L::load(&velocity[a]);
-            fine = fine.and(finite_lanes::<R, L>(moving));
-        }
-        if fine.bits() & mask_of(count) == mask_of(count) {
-            for a in 0..D {
-                let mut to = [R::ZERO; WIDEST];
-                place[a].store(&mut to);
-                // SAFETY: as above.
-                unsafe { out.write_block(a, row, &to[..count], &velocity[a][..count]) };
-            }
+        if perform_together::<R, L, D>(view, row, count, &velocity, &displacement, out) {
             return;
         }
         for k in 0..count {
@@ -1470,11 +1745,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             id: view.now.id[row],
             position,
             velocity: view.now.velocity(row),
-            heading: if M::HEADINGS && !view.heading[0].is_empty() {
-                Vector(core::array::from_fn(|a| view.heading[a][row]))
-            } else {
-                view.now.velocity(row).unit()
-            },
+            heading: view.heading_of(row),
             own: &mut scratch.own,
             around: stages.around(view, row, position, &scratch.obstacles),
             trace: None,
@@ -1482,6 +1753,41 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         let motion = self.law().finish(&mut me, sums, &draws);
         stages.wanted(view, row, motion)
     }
+}
+
+/// Moves consecutive rows, fewer than there are lanes or as many, whose motions are performed exactly: the same numbers as
+/// [`Stages::perform`], side by side. False, and nothing written, where one of them is not finite or leaves a periodic space.
+#[inline(always)]
+fn perform_together<R: Scalar, L: Lanes<R>, const D: usize>(
+    view: &View<'_, R, D>,
+    row: usize,
+    count: usize,
+    velocity: &[[R; WIDEST]; D],
+    displacement: &[[R; WIDEST]; D],
+    out: &Writer<'_, R, D>,
+) -> bool {
+    let zero = L::splat(R::ZERO);
+    let mut fine = L::Mask::all_of(true);
+    let mut place = [zero; D];
+    for a in 0..D {
+        place[a] = L::load(&view.now.position[a][row..]) + L::load(&displacement[a]);
+        fine = match view.space.edges[a] {
+            Edge::Periodic(length) => fine.and(zero.less_equal(place[a])).and(place[a].less(L::splat(length))),
+            _ => fine.and(finite_lanes::<R, L>(place[a])),
+        };
+        let moving = L::load(&velocity[a]);
+        fine = fine.and(finite_lanes::<R, L>(moving));
+    }
+    if fine.bits() & mask_of(count) == mask_of(count) {
+        for a in 0..D {
+            let mut to = [R::ZERO; WIDEST];
+            place[a].store(&mut to);
+            // SAFETY: rows of one sweep are written by it alone.
+            unsafe { out.write_block(a, row, &to[..count], &velocity[a][..count]) };
+        }
+        return true;
+    }
+    false
 }
 
 /// A block of consecutive agents, one per lane.

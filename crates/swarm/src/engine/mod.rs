@@ -1,6 +1,7 @@
 //! The world and its engine: the only hot loop, the drivers, checkpoints.
 
 mod checkpoint;
+mod coarse;
 mod contacts;
 pub mod explain;
 mod kernel;
@@ -9,7 +10,7 @@ mod step;
 mod world;
 
 pub use explain::Explanation;
-pub(crate) use kernel::{Kernel, Listed, Stages, Streamed, mask_of, minimal_lanes};
+pub(crate) use kernel::{Kernel, Listed, SideBySide, Stages, Streamed, mask_of, minimal_lanes};
 pub use kernel::{MotionNoise, Sensing};
 pub use plan::{Clock, Driver, GroupPlan, IndexChoice, Order, Phase, Placement, Start, WorldError, WorldPlan};
 pub use world::{Checkpoint, Group, World};

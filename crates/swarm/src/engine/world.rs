@@ -1,6 +1,7 @@
 //! The world: columns, index, obstacles, resources, groups.
 
 use crate::detection::readings::ErrorCount;
+use crate::engine::coarse::Coarse;
 use crate::engine::kernel::{Close, Index, Kernel, Scratch, Sensing, Stages, View};
 use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
 use crate::models::{self, Catalogue, Models};
@@ -76,6 +77,8 @@ pub struct World<R: Scalar, const D: usize> {
     pub(crate) next: Columns<R, D>,
     pub(crate) heading: [Vec<R>; D],
     pub(crate) headings: bool,
+    /// Places in single precision, where agents mark rings among everyone and all read the newest state.
+    pub(crate) coarse: Option<Coarse<D>>,
     pub(crate) reach: Option<Reach<R>>,
     pub(crate) grid: Option<Grid<R, D>>,
     pub(crate) live: Option<LiveGrid<R, D>>,
@@ -247,7 +250,7 @@ where
                     && group.noise.execution_speed == R::ZERO,
             };
             let kernel = (model.build)(stages);
-            headings |= kernel.streams() == Some(true);
+            headings |= kernel.streams() == Some(true) || kernel.marks();
             groups.push(Group {
                 name: group.name.clone(),
                 model: group.model.clone(),
@@ -297,6 +300,10 @@ where
             Sensing::Ideal(_) => None,
         });
         let memory = associated.map_or_else(Vec::new, |gate| vec![Memory::new(gate); agents]);
+        let rough = size_of::<R>() > size_of::<f32>()
+            && reach.is_none()
+            && !(sequential || delayed || plan.space.is_periodic())
+            && groups.iter().any(|g| g.kernel.marks());
         let mut world = Self {
             space: plan.space,
             obstacles,
@@ -309,6 +316,7 @@ where
             heading: core::array::from_fn(|_| Vec::new()),
             // one after the other, headings would be out of date as soon as somebody has turned
             headings: headings && !sequential,
+            coarse: rough.then(Coarse::new),
             reach,
             grid: None,
             live: None,
@@ -460,21 +468,16 @@ impl<R: Scalar, const D: usize> World<R, D> {
         if self.headings {
             self.update_headings();
         }
+        if let Some(coarse) = &mut self.coarse {
+            coarse.update(&self.now);
+        }
     }
     /// Puts rows back in the order of ids, for when cells cannot serve any more.
     fn unsort(&mut self) {
         if (0..self.now.len()).all(|row| self.now.id[row] as usize == row) {
             return;
         }
-        let rows = self.frame().rows_by_id();
-        for (id, &row) in rows.iter().enumerate() {
-            self.next.set_position(id, self.now.position(row));
-            self.next.set_velocity(id, self.now.velocity(row));
-            for (to, from) in self.next.state.iter_mut().zip(&self.now.state) {
-                to[id] = from[row];
-            }
-            self.next.id[id] = id as u32;
-        }
+        self.now.write_by_id(&mut self.next);
         core::mem::swap(&mut self.now, &mut self.next);
     }
     fn update_rows(&mut self) {
@@ -519,6 +522,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
             now: &self.now,
             others: &self.now,
             heading: &self.heading,
+            coarse: self.coarse.as_ref(),
             index: match (&self.grid, &self.live) {
                 (Some(grid), _) => Index::Sorted(grid),
                 (None, Some(live)) => Index::Live(live),
@@ -645,15 +649,8 @@ impl<R: Scalar, const D: usize> World<R, D> {
 
     /// The full state, from which a world of the same plan continues with the same bits.
     pub fn save(&self) -> Checkpoint<R, D> {
-        let rows = self.frame().rows_by_id();
         let mut columns = Columns::new(self.now.len(), self.declared.len());
-        for (id, &row) in rows.iter().enumerate() {
-            columns.set_position(id, self.now.position(row));
-            columns.set_velocity(id, self.now.velocity(row));
-            for (to, from) in columns.state.iter_mut().zip(&self.now.state) {
-                to[id] = from[row];
-            }
-        }
+        self.now.write_by_id(&mut columns);
         let mut memory = Vec::new();
         self.memory.iter().for_each(|m| m.save(&mut memory));
         Checkpoint {

@@ -11,7 +11,8 @@ use crate::parameters::Scalar;
 use crate::selection::{NamedSet, Perception};
 use crate::sensing::cos_half;
 use crate::{choice, parameters};
-use space::lanes::{Lanes, Mask, Task, level, with_lanes};
+use space::angles::{arc_tangent, sine_cosine, wrapped};
+use space::lanes::{Lanes, Mask, Task, level, reciprocal_root, with_lanes};
 use space::{Column, ColumnKind, Real, Vector};
 
 choice! {
@@ -238,16 +239,21 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
 
 /// Which percepts an agent sees.
 trait Sight {
-    /// Members of the named sets in a block of percepts.
-    fn marks(&self, block: usize) -> Marks;
+    /// Members of a named set in a block of percepts.
+    fn members(&self, set: usize, block: usize) -> u16;
+    /// Members of a named set in so many blocks.
+    #[inline(always)]
+    fn count(&self, set: usize, blocks: usize) -> u32 {
+        (0..blocks).map(|block| self.members(set, block).count_ones()).sum()
+    }
 }
 
 /// Sight as selection found it.
-struct Selected<'a>(&'a [Marks]);
+struct Selected<'a>(Marks<'a>);
 impl Sight for Selected<'_> {
     #[inline(always)]
-    fn marks(&self, block: usize) -> Marks {
-        self.0[block]
+    fn members(&self, set: usize, block: usize) -> u16 {
+        self.0[set][block]
     }
 }
 
@@ -258,18 +264,16 @@ struct ByAxes<'a, R> {
     angles: (R, R),
 }
 impl<R: Scalar> Sight for ByAxes<'_, R> {
-    fn marks(&self, block: usize) -> Marks {
-        let mut marks = self.seen.marks[block];
-        for (set, members) in marks.iter_mut().enumerate() {
-            let hides = set != AVOIDANCE || self.law.avoid_blind;
+    fn members(&self, set: usize, block: usize) -> u16 {
+        let mut members = self.seen.marks[set][block];
+        if set != AVOIDANCE || self.law.avoid_blind {
             for l in 0..BLOCK {
-                let hidden = hides
-                    && *members >> l & 1 == 1
-                    && !self.law.sees_by_axes(self.angles, self.seen.offset(block * BLOCK + l));
-                *members &= !(u16::from(hidden) << l);
+                let hidden = members >> l & 1 == 1
+                    && !self.law.sees_by_axes(self.angles, self.seen.at(block * BLOCK + l).0);
+                members &= !(u16::from(hidden) << l);
             }
         }
-        marks
+        members
     }
 }
 
@@ -299,7 +303,8 @@ struct Directions;
 impl<R: Scalar> Term<R> for Directions {
     #[inline(always)]
     fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3> {
-        Vector(towards(&seen.offset(k).0, seen.squared[k]))
+        let (offset, squared) = seen.at(k);
+        Vector(towards(&offset.0, squared))
     }
     #[inline(always)]
     fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
@@ -307,12 +312,11 @@ impl<R: Scalar> Term<R> for Directions {
     }
 }
 
-/// Unit vectors of offsets, by one division each; zero where coincident.
+/// Unit vectors of offsets; zero where coincident.
 #[inline(always)]
 fn towards<R: Scalar, L: Lanes<R>>(offset: &[L; 3], squared: L) -> [L; 3] {
-    let distance = squared.square_root();
-    let apart = L::splat(R::TINY).less(distance);
-    let per = L::choose(apart, L::splat(R::ONE) / distance, L::splat(R::ZERO));
+    let apart = L::splat(R::TINY * R::TINY).less(squared);
+    let per = L::choose(apart, reciprocal_root::<R, L>(squared), L::splat(R::ZERO));
     [offset[0] * per, offset[1] * per, offset[2] * per]
 }
 
@@ -320,8 +324,8 @@ fn towards<R: Scalar, L: Lanes<R>>(offset: &[L; 3], squared: L) -> [L; 3] {
 #[inline(always)]
 fn sum_in_order<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
     let mut sum = Vector::ZERO;
-    for block in 0..seen.marks.len() {
-        let mut members = sight.marks(block)[set];
+    for block in 0..seen.blocks() {
+        let mut members = sight.members(set, block);
         while members != 0 {
             sum += T::of(seen, block * BLOCK + members.trailing_zeros() as usize);
             members &= members - 1;
@@ -330,8 +334,8 @@ fn sum_in_order<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl S
     sum
 }
 
-/// Sums of the unit vectors towards every sixteenth member of a set each, so that the processor may add several at a time,
-/// and then the sum of these; the number does not depend on the processor.
+/// Sums of the unit vectors towards the members in every sixteenth row each, so that the processor may add several at a time,
+/// and then the sum of these; the number depends neither on the processor nor on who stands between the members.
 struct SumOfDirections<'a, R, S> {
     seen: &'a Percepts<'a, R, 3>,
     sight: &'a S,
@@ -341,37 +345,33 @@ impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
     type Output = Vector<R, 3>;
     #[inline(always)]
     fn run<L: Lanes<R>>(self) -> Vector<R, 3> {
-        const ROOM: usize = 8 * BLOCK;
         let Self { seen, sight, set } = self;
-        let percepts = seen.marks.len() * BLOCK;
-        let columns = [seen.offset[0], seen.offset[1], seen.offset[2], seen.squared].map(|c| &c[..percepts]);
-        // members side by side, whoever stands between them
-        let mut members = [[R::ZERO; ROOM]; 4];
-        let mut filled = 0;
-        let mut sums = [[L::splat(R::ZERO); BLOCK]; 3];
-        for block in 0..seen.marks.len() {
-            let marks = u32::from(sight.marks(block)[set]);
-            for part in (0..BLOCK).step_by(L::WIDTH) {
-                let bits = marks >> part & mask_of(L::WIDTH);
-                for (members, column) in members.iter_mut().zip(&columns) {
-                    L::load(&column[block * BLOCK + part..]).pack(bits, &mut members[filled..]);
+        let mut sums = [[R::ZERO; BLOCK]; 3];
+        for block in 0..seen.blocks() {
+            let mut members = u32::from(sight.members(set, block));
+            if seen.whole && members != 0 {
+                for part in (0..BLOCK).step_by(L::WIDTH) {
+                    let (offset, squared) = seen.several::<L>(block * BLOCK + part);
+                    let unit = towards(&offset, squared);
+                    for a in 0..3 {
+                        let sum = L::load(&sums[a][part..]);
+                        sum.add_where(L::Mask::from_bits(members >> part), unit[a]).store(&mut sums[a][part..]);
+                    }
                 }
-                filled += bits.count_ones() as usize;
+                continue;
             }
-            if filled > ROOM - 2 * BLOCK {
-                let whole = filled - filled % BLOCK;
-                add_directions(&mut sums, &members, whole);
-                members.iter_mut().for_each(|column| column.copy_within(whole..whole + BLOCK, 0));
-                filled -= whole;
+            while members != 0 {
+                let k = block * BLOCK + members.trailing_zeros() as usize;
+                let unit = Directions::of(seen, k);
+                for a in 0..3 {
+                    sums[a][seen.row[k] as usize % BLOCK] += unit[a];
+                }
+                members &= members - 1;
             }
         }
-        add_directions(&mut sums, &members, filled);
         let mut sum = Vector::ZERO;
         for a in 0..3 {
-            let mut each = [R::ZERO; BLOCK];
-            for part in (0..BLOCK).step_by(L::WIDTH) {
-                sums[a][part / L::WIDTH].store(&mut each[part..]);
-            }
+            let each = &mut sums[a];
             let mut half = BLOCK / 2;
             while half > 0 {
                 for l in 0..half {
@@ -385,30 +385,11 @@ impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
     }
 }
 
-/// Adds the unit vectors of the first `count` of these columns (offset, squared distance) to the sums of every sixteenth.
-#[inline(always)]
-fn add_directions<R: Scalar, L: Lanes<R>, const N: usize>(
-    sums: &mut [[L; BLOCK]; 3],
-    columns: &[[R; N]; 4],
-    count: usize,
-) {
-    for first in (0..count).step_by(BLOCK) {
-        for part in (0..BLOCK).step_by(L::WIDTH) {
-            let [x, y, z, squared] = columns.each_ref().map(|column| L::load(&column[first + part..]));
-            let there = L::Mask::from_bits(mask_of(count.saturating_sub(first + part)));
-            let unit = towards(&[x, y, z], squared);
-            for a in 0..3 {
-                let sum = &mut sums[a][part / L::WIDTH];
-                *sum = sum.add_where(there, unit[a]);
-            }
-        }
-    }
-}
-
 /// Whether percept `a` is nearer than `b`; ties go to the lower id.
 #[inline(always)]
 fn before<R: Scalar>(seen: &Percepts<'_, R, 3>, a: usize, b: usize) -> bool {
-    seen.squared[a] < seen.squared[b] || (seen.squared[a] == seen.squared[b] && seen.id(a) < seen.id(b))
+    let (near, far) = (seen.at(a).1, seen.at(b).1);
+    near < far || (near == far && seen.id(a) < seen.id(b))
 }
 
 /// The nearest `considered` of a set that has more members, in their order; none where that takes more than [`KEPT`] to tell.
@@ -416,58 +397,89 @@ struct Nearest<'a, R, S> {
     seen: &'a Percepts<'a, R, 3>,
     sight: &'a S,
     set: usize,
-    /// Number of members.
-    count: usize,
     considered: usize,
 }
+
+/// So many members of a set are listed before the farther ones are left out.
+const LISTED: usize = 256;
+const ROOM: usize = LISTED + 2 * BLOCK;
+
+/// Keeps those among so many that may be among the nearest, in their order. Behind them stands anything.
+#[inline(always)]
+fn nearer<R: Scalar, L: Lanes<R>>(
+    squares: &mut [R; ROOM],
+    rows: &mut [u32; ROOM],
+    count: usize,
+    considered: usize,
+) -> usize {
+    squares[count..count + BLOCK].fill(R::INFINITY);
+    // the nearest of each lane's share: so many of these as are considered are that near, so the nearest of all are no farther
+    let mut least = [L::splat(R::INFINITY); KEPT];
+    for first in (0..count).step_by(KEPT) {
+        for part in (0..KEPT).step_by(L::WIDTH) {
+            let least = &mut least[part / L::WIDTH];
+            *least = L::load(&squares[first + part..]).lesser(*least);
+        }
+    }
+    let bound = L::splat(in_order::<R, L>(&least, considered));
+    let mut near = 0;
+    for first in (0..count).step_by(L::WIDTH) {
+        let lanes = L::load(&squares[first..]);
+        let mut some = [0; WIDEST];
+        some[..L::WIDTH].copy_from_slice(&rows[first..first + L::WIDTH]);
+        let bits = lanes.less_equal(bound).bits() & mask_of(count - first);
+        // never beyond what was read
+        L::pack_listed(&some, bits, &mut rows[near..]);
+        lanes.pack(bits, &mut squares[near..]);
+        near += bits.count_ones() as usize;
+    }
+    near
+}
+
 impl<R: Scalar, S: Sight> Task<R> for Nearest<'_, R, S> {
     type Output = Option<[u32; KEPT]>;
     #[inline(always)]
     fn run<L: Lanes<R>>(self) -> Option<[u32; KEPT]> {
-        let Self { seen, sight, set, count, considered } = self;
-        let squared = &seen.squared[..seen.marks.len() * BLOCK];
-        // the nearest of each lane's share of the set: so many of these as are considered are that near, so the nearest of
-        // the whole set are no farther
-        let mut least = [L::splat(R::INFINITY); KEPT];
-        let few = count <= KEPT;
-        for block in 0..if few { 0 } else { seen.marks.len() } {
-            let marks = u32::from(sight.marks(block)[set]);
-            for part in (0..BLOCK).step_by(L::WIDTH) {
-                let least = &mut least[part / L::WIDTH];
-                let nearer = L::load(&squared[block * BLOCK + part..]).lesser(*least);
-                *least = L::choose(L::Mask::from_bits(marks >> part), nearer, *least);
+        let Self { seen, sight, set, considered } = self;
+        // the members, whoever stands between them
+        let (mut squares, mut rows) = ([R::INFINITY; ROOM], [0; ROOM]);
+        let mut count = 0;
+        for block in 0..seen.blocks() {
+            let marks = u32::from(sight.members(set, block));
+            if marks == 0 {
+                continue;
             }
-        }
-        let bound = if few { R::INFINITY } else { in_order::<R, L>(&least, considered) };
-        // a list of those that near, without branches
-        const ROOM: usize = 2 * KEPT;
-        let mut list = [0; ROOM + BLOCK];
-        let mut listed = 0;
-        for block in 0..seen.marks.len() {
-            let marks = u32::from(sight.marks(block)[set]);
+            if count > LISTED {
+                count = nearer::<R, L>(&mut squares, &mut rows, count, considered);
+                if count > LISTED {
+                    return None;
+                }
+            }
             for part in (0..BLOCK).step_by(L::WIDTH) {
+                let bits = marks >> part & mask_of(L::WIDTH);
                 let first = block * BLOCK + part;
-                let near = L::load(&squared[first..]).less_equal(L::splat(bound)).bits() & marks >> part;
-                L::pack_numbers(first as u32, near, &mut list[listed.min(ROOM)..]);
-                listed += near.count_ones() as usize;
+                seen.several::<L>(first).1.pack(bits, &mut squares[count..]);
+                L::pack_numbers(first as u32, bits, &mut rows[count..]);
+                count += bits.count_ones() as usize;
             }
         }
-        if listed > KEPT {
+        if count > KEPT {
+            count = nearer::<R, L>(&mut squares, &mut rows, count, considered);
+        }
+        if count > KEPT {
             return None;
         }
-        let mut each = [R::INFINITY; KEPT];
-        for n in 0..listed {
-            each[n] = squared[list[n] as usize];
-        }
+        squares[count..count + BLOCK].fill(R::INFINITY);
+        let mut least = [L::splat(R::INFINITY); KEPT];
         for part in (0..KEPT).step_by(L::WIDTH) {
-            least[part / L::WIDTH] = L::load(&each[part..]);
+            least[part / L::WIDTH] = L::load(&squares[part..]);
         }
         let bound = in_order::<R, L>(&least, considered);
         let mut kept = [0; KEPT];
         let mut filled = 0;
-        for n in 0..listed {
-            kept[filled % KEPT] = list[n];
-            filled += usize::from(each[n] <= bound);
+        for n in 0..count {
+            kept[filled % KEPT] = rows[n];
+            filled += usize::from(squares[n] <= bound);
         }
         (filled == considered).then_some(kept)
     }
@@ -480,19 +492,94 @@ fn in_order<R: Scalar, L: Lanes<R>>(numbers: &[L; KEPT], count: usize) -> R {
     for part in (0..KEPT).step_by(L::WIDTH) {
         numbers[part / L::WIDTH].store(&mut each[part..]);
     }
-    let mut bound = R::INFINITY;
+    // how many of them each does not fall short of
+    let (one, enough) = (L::splat(R::ONE), L::splat(R::count(count)));
+    let mut ranks = [L::splat(R::ZERO); KEPT];
     for number in each {
-        let mut rank = 0;
+        let number = L::splat(number);
         for part in 0..KEPT / L::WIDTH {
-            rank += numbers[part].less_equal(L::splat(number)).bits().count_ones();
+            ranks[part] = ranks[part].add_where(number.less_equal(numbers[part]), one);
         }
-        let better = rank as usize >= count && number < bound;
-        bound = if better { number } else { bound };
     }
-    bound
+    let mut bound = L::splat(R::INFINITY);
+    for part in 0..KEPT / L::WIDTH {
+        bound = L::choose(enough.less_equal(ranks[part]), bound.lesser(numbers[part]), bound);
+    }
+    bound.store(&mut each);
+    let mut least = each[0];
+    for lane in 1..L::WIDTH {
+        least = least.least(each[lane]);
+    }
+    least
+}
+
+/// Some members of a set, all of the nearest `considered` among them, by what is roughly known of their distances; none where
+/// that are more than [`KEPT`]. The answer: their numbers, and how many they are.
+struct NearestRoughly<'a, S> {
+    squared: &'a [f32],
+    margin: f32,
+    blocks: usize,
+    sight: &'a S,
+    set: usize,
+    considered: usize,
+}
+
+impl<S: Sight> Task<f32> for NearestRoughly<'_, S> {
+    type Output = Option<([u32; KEPT], usize)>;
+    #[inline(always)]
+    fn run<L: Lanes<f32>>(self) -> Option<([u32; KEPT], usize)> {
+        let Self { squared, margin, blocks, sight, set, considered } = self;
+        let squared = &squared[..blocks * BLOCK];
+        let mut least = [L::splat(f32::INFINITY); KEPT];
+        for block in 0..blocks {
+            let marks = u32::from(sight.members(set, block));
+            for part in (0..BLOCK).step_by(L::WIDTH) {
+                let least = &mut least[part / L::WIDTH];
+                let nearer = L::load(&squared[block * BLOCK + part..]).lesser(*least);
+                *least = L::choose(L::Mask::from_bits(marks >> part), nearer, *least);
+            }
+        }
+        // so many are that near, each of them wrong by the margin at most
+        let bound = L::splat(in_order::<f32, L>(&least, considered) + 2.0 * margin);
+        let mut list = [0; 2 * KEPT];
+        let mut listed = 0;
+        for block in 0..blocks {
+            let marks = u32::from(sight.members(set, block));
+            for part in (0..BLOCK).step_by(L::WIDTH) {
+                let first = block * BLOCK + part;
+                let near = L::load(&squared[first..]).less_equal(bound).bits() & marks >> part;
+                L::pack_numbers(first as u32, near, &mut list[listed.min(KEPT)..]);
+                listed += near.count_ones() as usize;
+            }
+        }
+        let mut kept = [0; KEPT];
+        kept.copy_from_slice(&list[..KEPT]);
+        (listed <= KEPT).then_some((kept, listed))
+    }
 }
 
 impl<R: Scalar> BehaviourSelection<R> {
+    /// The nearest `considered` of so many percepts in their order, as bits; ties go to the first.
+    #[inline(always)]
+    fn nearest_of(seen: &Percepts<'_, R, 3>, listed: &[u32], considered: usize) -> u32 {
+        let mut left = mask_of(listed.len());
+        if listed.len() > considered {
+            let mut squares = [R::ZERO; KEPT];
+            for (squared, &k) in squares.iter_mut().zip(listed) {
+                *squared = seen.at(k as usize).1;
+            }
+            for _ in considered..listed.len() {
+                let (mut farthest, mut far) = (0, -R::ONE);
+                for l in 0..listed.len() {
+                    let farther = left >> l & 1 == 1 && squares[l] >= far;
+                    farthest = if farther { l } else { farthest };
+                    far = if farther { squares[l] } else { far };
+                }
+                left &= !(1 << farthest);
+            }
+        }
+        left
+    }
     /// Bounds of the zones, from centre to centre.
     #[inline(always)]
     fn bounds(&self) -> [R; 3] {
@@ -579,7 +666,21 @@ impl<R: Scalar> BehaviourSelection<R> {
         }
         let mut sum = Vector::ZERO;
         if considered <= KEPT
-            && let Some(kept) = with_lanes(level(), Nearest { seen, sight, set, count, considered })
+            && let Some(Rough { squared, margin, .. }) = seen.rough
+        {
+            let blocks = seen.blocks();
+            let roughly = NearestRoughly { squared, margin, blocks, sight, set, considered };
+            if let Some((kept, listed)) = with_lanes::<f32, _>(level(), roughly) {
+                let mut left = Self::nearest_of(seen, &kept[..listed], considered);
+                while left != 0 {
+                    sum += T::of(seen, kept[left.trailing_zeros() as usize] as usize);
+                    left &= left - 1;
+                }
+                return sum;
+            }
+        }
+        if considered <= KEPT
+            && let Some(kept) = with_lanes(level(), Nearest { seen, sight, set, considered })
         {
             for &k in &kept[..considered] {
                 sum += T::of(seen, k as usize);
@@ -587,15 +688,15 @@ impl<R: Scalar> BehaviourSelection<R> {
             return sum;
         }
         // too many to list, or ties: whoever has fewer nearer ones than that
-        for block in 0..seen.marks.len() {
-            for l in (0..BLOCK).filter(|l| sight.marks(block)[set] >> l & 1 == 1) {
+        for block in 0..seen.blocks() {
+            for l in (0..BLOCK).filter(|l| sight.members(set, block) >> l & 1 == 1) {
                 let k = block * BLOCK + l;
                 let nearer = |other: usize| {
                     (0..BLOCK)
-                        .filter(|l| sight.marks(other)[set] >> l & 1 == 1 && before(seen, other * BLOCK + l, k))
+                        .filter(|l| sight.members(set, other) >> l & 1 == 1 && before(seen, other * BLOCK + l, k))
                         .count()
                 };
-                if (0..seen.marks.len()).map(nearer).sum::<usize>() < considered {
+                if (0..seen.blocks()).map(nearer).sum::<usize>() < considered {
                     sum += T::of(seen, k);
                 }
             }
@@ -643,21 +744,15 @@ impl<R: Scalar> BehaviourSelection<R> {
     }
 
     #[inline(always)]
-    fn decided(
+    fn wished(
         &self,
         me: &mut Me<'_, R, 3>,
         seen: &Percepts<'_, R, 3>,
         sight: &impl Sight,
         draws: &Draws<'_>,
-    ) -> Motion<R, 3> {
+    ) -> Wish<R> {
         let (theta, phi) = (me.own[THETA], me.own[PHI]);
-        let mut counts = [0u32; 3];
-        for block in 0..seen.marks.len() {
-            let marks = sight.marks(block);
-            for set in 0..3 {
-                counts[set] += marks[set].count_ones();
-            }
-        }
+        let counts = [AVOIDANCE, ALIGNMENT, ATTRACTION].map(|set| sight.count(set, seen.blocks()));
         let (mut away, mut obstacles) = (Vector::<R, 3>::ZERO, 0u32);
         for obstacle in me.around.obstacles {
             if !self.obstacle_blind || self.sees(me.heading(), (theta, phi), -obstacle.away) {
@@ -697,41 +792,71 @@ impl<R: Scalar> BehaviourSelection<R> {
             }
             Behaviour::Search => Vector::ZERO,
         };
-        let limits = [self.horizontal_turning_rate, self.vertical_turning_rate].map(|r| r.radians() * self.time_step);
-        let (mut turn, mut rise) = (R::ZERO, R::ZERO);
+        let mut wish = Wish { direction: wanted, ..Wish::default() };
         if let Behaviour::Search = behaviour {
-            turn = limits[0] * draws.number("search_theta", 0.0, |s| 2.0 * s.uniform(1) - 1.0);
-            rise = limits[1] * draws.number("search_phi", 0.0, |s| 2.0 * s.uniform(2) - 1.0);
-        } else if wanted.length_squared() >= R::of(SHORT * SHORT) {
-            let (azimuth, elevation) = Self::angles_of(wanted, theta);
-            turn = (azimuth - theta).wrapped().clamped(-limits[0], limits[0]);
-            rise = (elevation - phi).clamped(-limits[1], limits[1]);
+            let limits = self.limits();
+            wish.turn[0] = limits[0] * draws.number("search_theta", 0.0, |s| 2.0 * s.uniform(1) - 1.0);
+            wish.turn[1] = limits[1] * draws.number("search_phi", 0.0, |s| 2.0 * s.uniform(2) - 1.0);
         }
         if me.trace.is_some() {
             self.tell(me, seen, sight, counts, from_obstacles, behaviour, drawn);
             me.note("wanted direction", wanted);
+            let [turn, rise] = self.turns::<R>(me.own[THETA], me.own[PHI], &wish.direction.0, &wish.turn);
             for (name, angle) in [("turn", turn), ("rise", rise)] {
                 me.value(name, angle, "rad");
             }
-            for (name, limit) in ["turn allowed", "rise allowed"].into_iter().zip(limits) {
+            for (name, limit) in ["turn allowed", "rise allowed"].into_iter().zip(self.limits()) {
                 me.value(name, limit, "rad");
             }
         }
-        let (theta, phi) = ((theta + turn).wrapped(), (phi + rise).clamped(-R::PI * R::HALF, R::PI * R::HALF));
-        (me.own[THETA], me.own[PHI], me.own[KIND]) = (theta, phi, R::of(f64::from(u8::from(b))));
+        me.own[KIND] = R::of(f64::from(u8::from(b)));
         let count = |count: u32| R::of(f64::from(count));
         (me.own[N_AVOID], me.own[N_ALIGN], me.own[N_ATTRACT]) = (count(counts[0]), count(counts[1]), count(counts[2]));
         (me.own[O_AVOID], me.own[BEHAVIOUR]) = (count(obstacles), count(behaviour as u32));
-        let velocity = Self::heading_of(theta, phi) * self.speed;
-        match self.position_update {
-            Update::New => Motion::new_velocity(velocity, self.time_step),
-            Update::Old => Motion::old_velocity(me.velocity, velocity, self.time_step),
-        }
+        wish
+    }
+
+    /// Largest turns in a step, rad: of the azimuth, of the elevation.
+    #[inline(always)]
+    fn limits(&self) -> [R; 2] {
+        [self.horizontal_turning_rate, self.vertical_turning_rate].map(|rate| rate.radians() * self.time_step)
+    }
+
+    /// The turns of azimuth and elevation (rad) towards a direction; those of the search where there is none.
+    #[inline(always)]
+    fn turns<L: Lanes<R>>(&self, theta: L, phi: L, direction: &[L; 3], search: &[L; 2]) -> [L; 2] {
+        let [x, y, z] = *direction;
+        let level = x * x + y * y;
+        let length = level + z * z;
+        let short = L::splat(R::of(SHORT * SHORT));
+        let upright = level.less(length * short);
+        let still = length.less(short);
+        let across = L::choose(upright, theta, arc_tangent::<R, L>(y, x));
+        let up = arc_tangent::<R, L>(z, level.square_root());
+        let [most_turn, most_rise] = self.limits().map(L::splat);
+        let turn = wrapped::<R, L>(across - theta).greater(-most_turn).lesser(most_turn);
+        let rise = (up - phi).greater(-most_rise).lesser(most_rise);
+        [L::choose(still, search[0], turn), L::choose(still, search[1], rise)]
     }
 }
 
-impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
-    const MARKS: bool = true;
+/// What an agent wishes.
+#[derive(Clone, Copy)]
+pub struct Wish<R> {
+    /// Where to, of any length; zero where nobody says.
+    direction: Vector<R, 3>,
+    /// Turns of azimuth and elevation in a search, rad; else zero.
+    turn: [R; 2],
+}
+
+impl<R: Real> Default for Wish<R> {
+    fn default() -> Self {
+        Self { direction: Vector::ZERO, turn: [R::ZERO; 2] }
+    }
+}
+
+impl<R: Scalar> Abreast<R, 3> for BehaviourSelection<R> {
+    type Wish = Wish<R>;
 
     fn sets(&self) -> Vec<NamedSet<R, 3>> {
         let [near, middle, far] = self.bounds();
@@ -766,13 +891,43 @@ impl<R: Scalar> Model<R, 3> for BehaviourSelection<R> {
         }
     }
     #[inline(always)]
-    fn decide(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, draws: &Draws<'_>) -> Motion<R, 3> {
+    fn wish(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, draws: &Draws<'_>) -> Wish<R> {
         match self.view {
-            View::Cone => self.decided(me, seen, &Selected(seen.marks), draws),
+            View::Cone => self.wished(me, seen, &Selected(seen.marks), draws),
             View::Axes => {
                 let angles = (me.own[THETA], me.own[PHI]);
-                self.decided(me, seen, &ByAxes { law: self, seen, angles }, draws)
+                self.wished(me, seen, &ByAxes { law: self, seen, angles }, draws)
             }
+        }
+    }
+    #[inline(always)]
+    fn conclude<L: Lanes<R>>(&self, first: usize, wishes: &[Wish<R>; WIDEST], agents: &mut Agents<R, 3>) {
+        let mut wished = [[R::ZERO; WIDEST]; 5];
+        for l in 0..L::WIDTH {
+            let wish = &wishes[first + l];
+            let [x, y, z] = wish.direction.0;
+            for (column, number) in wished.iter_mut().zip([x, y, z, wish.turn[0], wish.turn[1]]) {
+                column[l] = number;
+            }
+        }
+        let [x, y, z, turn, rise] = wished.each_ref().map(|column| L::load(column));
+        let (theta, phi) = (L::load(&agents.own[THETA][first..]), L::load(&agents.own[PHI][first..]));
+        let [turn, rise] = self.turns::<L>(theta, phi, &[x, y, z], &[turn, rise]);
+        let pole = L::splat(R::PI * R::HALF);
+        let theta = wrapped::<R, L>(theta + turn);
+        let phi = (phi + rise).greater(-pole).lesser(pole);
+        theta.store(&mut agents.own[THETA][first..]);
+        phi.store(&mut agents.own[PHI][first..]);
+        let ((sine, cosine), (sine_up, cosine_up)) = (sine_cosine::<R, L>(theta), sine_cosine::<R, L>(phi));
+        let (speed, time) = (L::splat(self.speed), L::splat(self.time_step));
+        let new = [cosine_up * cosine * speed, cosine_up * sine * speed, sine_up * speed];
+        for a in 0..3 {
+            let moving = match self.position_update {
+                Update::New => new[a],
+                Update::Old => L::load(&agents.velocity[a][first..]),
+            };
+            (moving * time).store(&mut agents.displacement[a][first..]);
+            new[a].store(&mut agents.velocity[a][first..]);
         }
     }
 }

@@ -2,8 +2,8 @@
 //! made from the list.
 
 use crate::card::Card;
-use crate::engine::{Kernel, Listed, Stages, Streamed};
-use crate::motion::{Law, Model, Needs, Stream, Summed, Variant};
+use crate::engine::{Kernel, Listed, SideBySide, Stages, Streamed};
+use crate::motion::{Abreast, Law, Model, Needs, Single, Stream, Summed, Variant};
 use crate::parameters::{Descriptor, Kind, Parameter, ParameterError, Parameters, Points, Scalar, Values};
 use crate::physics::Contact;
 use crate::selection::NamedSet;
@@ -138,6 +138,19 @@ fn streams<R: Scalar, const D: usize, M: Law<R> + Stream<R, D>>(
     prepared(&law, members, sets, reach, build)
 }
 
+/// A law that looks for itself and moves abreast with others.
+fn abreast<R: Scalar, const D: usize, M: Law<R> + Abreast<R, D>>(
+    values: &Values,
+    members: usize,
+) -> Result<Prepared<R, D>, ParameterError> {
+    let law = M::from_values(values)?;
+    let build: Build<R, D> = {
+        let law = Single(law.clone());
+        Box::new(move |stages| Box::new(SideBySide { listed: Listed { law, stages } }))
+    };
+    prepared(&law, members, law.sets(), None, build)
+}
+
 /// A variant of a law that is given lists.
 fn lists_as<R: Scalar, const D: usize, M: Variant<R>>(
     values: &Values,
@@ -248,8 +261,8 @@ macro_rules! models {
     };
 }
 
-// one line a model: whether it streams or is given lists (`_as`: through the law that its family shares) or is composed of its
-// parameters, file and type, dimensions
+// one line a model: whether it streams, is given lists, is given lists and moves abreast (`_as`: through the law that its family
+// shares), or is composed of its parameters, file and type, dimensions
 models! {
     streams vicsek_1995::Vicsek1995 in [2, 3];
     streams_as czirok_1997::Czirok1997 in [2, 3];
@@ -311,7 +324,7 @@ models! {
     lists rm_plus::RmPlus in [2];
     lists_as snn_plus::SnnPlus in [2];
     streams competing_flocks::CompetingFlocks in [2];
-    lists behaviour_selection::BehaviourSelection in [3];
+    abreast behaviour_selection::BehaviourSelection in [3];
     streams control_boids::ControlBoids in [2];
     lists control_snn::ControlSnn in [2];
     lists control_random::ControlRandom in [2];

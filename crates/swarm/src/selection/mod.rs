@@ -90,6 +90,8 @@ pub const RINGS: usize = 3;
 pub struct Rings<R> {
     /// Squared outer radii. A ring that nobody can be in has that of the ring before.
     pub outer: [R; RINGS],
+    /// The largest of these radii.
+    pub reach: R,
     /// Cosine of half the opening of the cone.
     pub cos_half: R,
     /// Whether the cone limits a ring.
@@ -102,7 +104,8 @@ impl<R: Scalar> Rings<R> {
         if sets.len() > RINGS {
             return None;
         }
-        let mut rings = Self { outer: [R::ZERO; RINGS], cos_half: -R::ONE, within_cone: [false; RINGS] };
+        let mut rings =
+            Self { outer: [R::ZERO; RINGS], reach: R::ZERO, cos_half: -R::ONE, within_cone: [false; RINGS] };
         let (mut cone, mut inner) = (None, R::ZERO);
         for s in 0..RINGS {
             let distance = match sets.get(s).map(|set| &set.perception) {
@@ -123,6 +126,7 @@ impl<R: Scalar> Rings<R> {
             }
             rings.outer[s] = inner * inner;
         }
+        rings.reach = inner;
         rings.cos_half = cone.unwrap_or(rings.cos_half);
         Some(rings)
     }

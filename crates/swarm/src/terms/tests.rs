@@ -12,7 +12,8 @@ use space::{Space, Vector};
 
 /// Terms by id with their parameters.
 fn written(terms: &[(&str, &[(&str, Value)])]) -> Value {
-    let given = |given: &[(&str, Value)]| given.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
+    let given =
+        |given: &[(&str, Value)]| given.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
     Terms(terms.iter().map(|(id, all)| ((*id).to_owned(), given(all))).collect()).write()
 }
 
@@ -69,11 +70,18 @@ fn degenerate_states_stay_finite_with_every_term_alone() {
                     (vec![point; 20], vec![Vector::ZERO; 20]),
                     (vec![point; 20], vec![Vector([R::ONE; D]); 20]),
                     ((0..12).map(|k| Vector::axis(0) * R::count(k)).collect(), vec![Vector::ZERO; 12]),
-                    ((0..12).map(|k| Vector::axis(0) * R::of(1e25 * f64::from(k))).collect(), vec![point * R::of(1e15); 12]),
+                    (
+                        (0..12).map(|k| Vector::axis(0) * R::of(1e25 * f64::from(k))).collect(),
+                        vec![point * R::of(1e15); 12],
+                    ),
                     (vec![point], vec![Vector::ZERO]),
                 ] {
                     for space in [Space::open(), Space::walled([R::of(40.0); D])] {
-                        let start = crate::engine::Start { position: at.clone(), velocity: Some(going.clone()), columns: Default::default() };
+                        let start = crate::engine::Start {
+                            position: at.clone(),
+                            velocity: Some(going.clone()),
+                            columns: Default::default(),
+                        };
                         let placement = crate::engine::Placement::Given(start);
                         let group = crate::engine::GroupPlan::new("g", "composed", values.clone(), at.len(), placement);
                         let Ok(mut world) = World::new(crate::WorldPlan::new(space, group)) else {
@@ -133,7 +141,10 @@ fn terms_about_oneself_and_the_surroundings() {
     close(acts("travel", &[("direction", [0.0, 7.0].into())], &one), [0.0, 1.0]);
     close(acts("goal", &[("point", [1.0, 5.0].into())], &one), [0.0, 1.0]);
     close(acts("goal", &[("point", [1.0, 5.0].into()), ("arrive", 8.0.into())], &one), [0.0, 0.5]);
-    close(alone("wander", &[]).inject_vectors("wander", &[[0.6, 0.8]]).step(&[([0.0, 0.0], REST)]).velocity(0), [0.6, 0.8]);
+    close(
+        alone("wander", &[]).inject_vectors("wander", &[[0.6, 0.8]]).step(&[([0.0, 0.0], REST)]).velocity(0),
+        [0.6, 0.8],
+    );
     let drawn = alone("wander", &[]).live().step(&[([0.0, 0.0], REST)]).velocity(0);
     assert!((drawn.length() - 1.0).abs() < 1e-12);
     let disc = Shape::Ball { centre: Vector([3.0, 0.0]), radius: 1.0 };
@@ -152,7 +163,8 @@ fn priorities_and_budgets() {
         let oracle = Oracle::new("composed").set("terms", written(terms)).set("combine", combine).set("budget", 1.5);
         oracle.set("max_speed", 1e9).set("dt", 1.0).step(&[([0.0, 0.0], REST)]).velocity(0)
     };
-    let both: &[(&str, &[(&str, Value)])] = &[("travel", &[level(1), north.clone()]), ("travel", &[level(0), east.clone()])];
+    let both: &[(&str, &[(&str, Value)])] =
+        &[("travel", &[level(1), north.clone()]), ("travel", &[level(0), east.clone()])];
     close(ask("sum", both), [1.0, 1.0]);
     close(ask("first", both), [1.0, 0.0]);
     close(ask("budget", both), [1.0, 0.5]);
@@ -174,7 +186,8 @@ fn crowd(model: &str, given: &[(&str, Value)], sets: &[(&str, Perception<f64, 2>
         oracle.plan.groups[0].sensing = crate::engine::Sensing::Ideal(sensing);
     }
     let place = |k: usize| (k as f64 * 7.31) % 40.0;
-    let agents: Vec<_> = (0..300).map(|k| ([place(k), place(5 * k + 1)], [(k as f64).cos(), (k as f64).sin()])).collect();
+    let agents: Vec<_> =
+        (0..300).map(|k| ([place(k), place(5 * k + 1)], [(k as f64).cos(), (k as f64).sin()])).collect();
     let mut world = oracle.world(&agents);
     world.run(60);
     world
@@ -192,7 +205,8 @@ fn same(model: &str, own: &[(&str, Value)], composed: &[(&str, Value)], sets: &[
 fn compositions_of_published_laws_are_these_laws_to_the_bit() {
     same("boids_rule_vectors", &[], &[], &[]);
     let terms = written(&[("keep_heading", &[]), ("align", &[("take", "sum".into())])]);
-    let common = [("radius", 2.0.into()), ("speed", 0.3.into()), ("noise_amplitude", 0.5.into()), ("time_step", 1.0.into())];
+    let common =
+        [("radius", 2.0.into()), ("speed", 0.3.into()), ("noise_amplitude", 0.5.into()), ("time_step", 1.0.into())];
     let mut vicsek = vec![("terms", terms), ("motion", "direction".into()), ("position_update", "old_velocity".into())];
     vicsek.extend(common.clone());
     same("vicsek_1995", &common, &vicsek, &[]);
@@ -255,7 +269,8 @@ fn wrong_compositions_are_refused_by_name() {
     says(refused(written(&[("goal", &[("point", [1.0].into())])]), &[]), &["2 coordinates, found 1"]);
     says(refused(written(&[("wander", &[][..]); 3]), &[]), &["there can be 2"]);
     says(refused(written(&[("align", &[][..]); 9]), &[]), &["8 terms"]);
-    let sets: Vec<(&str, Vec<(&str, Value)>)> = ["a", "b", "c", "d", "e"].map(|s| ("align", vec![("set", s.into())])).to_vec();
+    let sets: Vec<(&str, Vec<(&str, Value)>)> =
+        ["a", "b", "c", "d", "e"].map(|s| ("align", vec![("set", s.into())])).to_vec();
     let sets: Vec<(&str, &[(&str, Value)])> = sets.iter().map(|(id, given)| (*id, &given[..])).collect();
     says(refused(written(&sets), &[]), &["4 named sets"]);
     let composed = crate::models::composed::Composed::<f64>::from_values(&Values::new());
@@ -264,7 +279,8 @@ fn wrong_compositions_are_refused_by_name() {
 
 #[test]
 fn explanations_tell_terms_levels_and_sets() {
-    let terms = written(&[("repel", &[]), ("repel", &[("scale", 2.0.into())]), ("keep_speed", &[("priority", 1usize.into())])]);
+    let terms =
+        written(&[("repel", &[]), ("repel", &[("scale", 2.0.into())]), ("keep_speed", &[("priority", 1usize.into())])]);
     let oracle = Oracle::<2>::new("composed").set("terms", terms).set("combine", "first");
     let mut world = oracle.world(&[([0.0, 0.0], [1.0, 0.0]), ([2.0, 0.0], REST)]);
     let names = |world: &mut World<f64, 2>| -> Vec<&str> {

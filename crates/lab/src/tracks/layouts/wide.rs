@@ -51,6 +51,17 @@ fn named(head: &Head, ask: &Ask, names: Vec<String>) -> Result<Option<Plan>, Sto
     if individuals.is_empty() {
         return Ok(None);
     }
+    let at = |role| names::column(head, &names, ask, role);
+    if let ([(_, [Some(x), Some(y), _])], Some(id)) = (individuals.as_slice(), at("id")?) {
+        let [x, y, id] = [x, y, &id].map(|&column| &names[column]);
+        return Err(wrong(
+            &head.path,
+            &format!(
+                "`{x}` and `{y}` are named as those of one individual, and `{id}` as a column of several: say --columns \
+                 x={x},y={y}, or --columns id=none"
+            ),
+        ));
+    }
     let flat = individuals.iter().filter(|(_, axes)| axes[2].is_none()).count();
     if flat != 0 && flat != individuals.len() {
         return Err(wrong(&head.path, "some individuals have a z and others none"));
@@ -61,7 +72,6 @@ fn named(head: &Head, ask: &Ask, names: Vec<String>) -> Result<Option<Plan>, Sto
         velocity: None,
     };
     let places = individuals.into_iter().map(place).collect();
-    let at = |role| names::column(head, &names, ask, role);
     let (frame, time) = (at("frame")?, at("time")?);
     let time = time.map(|column| Clock { column, stamps: head.holds_words(column, 1) });
     Ok(Some(Plan { skip: 1, frame, time, places, names, ..Plan::default() }))

@@ -1,0 +1,162 @@
+//! Designs and maps through the program itself: templates, threads, stopping and going on, exported environments, mistakes.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("flockworks-design-{}-{name}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn flockworks(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_flockworks")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn done(folder: &Path, arguments: &[&str]) -> String {
+    let output = flockworks(folder, arguments);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{arguments:?}: {text}{}", String::from_utf8_lossy(&output.stderr));
+    text
+}
+
+/// What a file with a mistake is told; the exit code must be that of wrong input.
+fn wrong(folder: &Path, text: &str) -> String {
+    std::fs::write(folder.join("wrong.toml"), text).unwrap();
+    let output = flockworks(folder, &["check", "wrong.toml"]);
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stdout));
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn files(folder: &Path, names: &[&str]) -> Vec<Vec<u8>> {
+    names.iter().map(|name| std::fs::read(folder.join(name)).unwrap()).collect()
+}
+
+/// Cuts off the last part of a log, as a stop does.
+fn torn(from: &Path, to: &Path, log: &str) {
+    std::fs::create_dir_all(to).unwrap();
+    std::fs::copy(from.join("manifest.json"), to.join("manifest.json")).unwrap();
+    let bytes = std::fs::read(from.join(log)).unwrap();
+    std::fs::write(to.join(log), &bytes[..bytes.len() * 3 / 5]).unwrap();
+}
+
+const DESIGN: [&str; 6] =
+    ["candidates.parquet", "results.parquet", "trials.parquet", "rates.parquet", "robustness.parquet", "report.html"];
+
+#[test]
+fn a_design_is_the_same_for_any_threads_and_stops() {
+    let folder = folder("design");
+    std::fs::write(folder.join("split.toml"), done(&folder, &["new", "design"])).unwrap();
+    assert!(done(&folder, &["check", "split.toml"]).contains("grammar splitting"));
+    done(&folder, &["run", "split.toml", "--quick", "--threads", "1", "--out", "one"]);
+    done(&folder, &["run", "split.toml", "--quick", "--threads", "3", "--out", "three"]);
+    let one = files(&folder.join("one"), &DESIGN);
+    assert!(one == files(&folder.join("three"), &DESIGN), "threads change nothing");
+    torn(&folder.join("one"), &folder.join("torn"), "candidates.log");
+    done(&folder, &["run", "split.toml", "--quick", "--out", "torn"]);
+    assert!(one == files(&folder.join("torn"), &DESIGN), "a stop changes nothing");
+    let again = done(&folder, &["run", "split.toml", "--quick", "--out", "one"]);
+    assert!(again.contains("0 candidates in"), "what is there is not done again: {again}");
+    done(&folder, &["report", "one"]);
+    assert!(one == files(&folder.join("one"), &DESIGN));
+    // more candidates may be added, another seed is another design
+    done(&folder, &["run", "split.toml", "--quick", "--out", "one", "--set", "quick_attempts=12"]);
+    let other = flockworks(&folder, &["run", "split.toml", "--quick", "--out", "one", "--seed", "9"]);
+    assert_eq!(other.status.code(), Some(2));
+    // environments are files that run
+    let mut endings: Vec<String> = Vec::new();
+    for entry in std::fs::read_dir(folder.join("one/environments")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        endings.push(name.rsplit('.').next().unwrap().to_owned());
+        if name.ends_with(".toml") {
+            done(&folder, &["run", &format!("one/environments/{name}"), "--quick", "--out", &format!("run-{name}")]);
+        }
+    }
+    for ending in ["svg", "geojson", "toml"] {
+        assert!(endings.iter().any(|own| own == ending), "{endings:?}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_map_is_the_same_for_any_threads_and_stops() {
+    let folder = folder("map");
+    let text = done(&folder, &["new", "map"]);
+    // fewer cells: a test
+    std::fs::write(
+        folder.join("wall.toml"),
+        text.replace("cells = 5", "cells = 3").replace("trials = 40", "trials = 4"),
+    )
+    .unwrap();
+    assert!(done(&folder, &["check", "wall.toml"]).contains("dirt over angle, length"));
+    let set = ["--set", "trials=2", "--set", "refine.iterations=1"];
+    let run = |out: &str, threads: &str| {
+        let mut arguments = vec!["run", "wall.toml", "--threads", threads, "--out", out];
+        arguments.extend(set);
+        done(&folder, &arguments)
+    };
+    run("one", "1");
+    run("three", "3");
+    let names = ["leaves.parquet", "measures.parquet", "report.html"];
+    let one = files(&folder.join("one"), &names);
+    assert!(one == files(&folder.join("three"), &names), "threads change nothing");
+    torn(&folder.join("one"), &folder.join("torn"), "evaluations.log");
+    run("torn", "2");
+    assert!(one == files(&folder.join("torn"), &names), "a stop changes nothing");
+    done(&folder, &["report", "one"]);
+    assert!(one == files(&folder.join("one"), &names));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn mistakes_are_told_at_their_place_with_what_is_near() {
+    let folder = folder("mistakes");
+    let (design, map) = (done(&folder, &["new", "design"]), done(&folder, &["new", "map"]));
+    let changed = |text: &str, from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        wrong(&folder, &text.replacen(from, to, 1))
+    };
+    for (from, to, told) in [
+        ("grammar = \"splitting\"", "grammar = \"spliting\"", "did you mean `splitting`"),
+        ("splitting = {}", "spliting = {}", "did you mean `splitting`"),
+        ("is.simple-split", "is.simple-splot", "did you mean `simple-split`"),
+        ("largest_share(25)", "largest_shore(25)", "did you mean `largest_share`"),
+        ("base = \"field\"", "base = \"fild\"", "did you mean `field`"),
+        ("base = \"field\"", "base = \"arena\"", "is in metres"),
+        ("attempts = 60", "atempts = 60", "did you mean `attempts`"),
+        ("number = \"rate[behaviour = split,", "number = \"rate[behaviour = splat,", "did you mean `split`"),
+        ("is.simple-split", "is.turn-right = {}\nis.simple-split", "takes one choice"),
+    ] {
+        let text = changed(&design, from, to);
+        assert!(text.contains(told) && text.contains("wrong.toml:"), "{to}: {text}");
+    }
+    for (from, to, told) in [
+        ("[axis.angle]", "[axis.angel]", "did you mean `angle`"),
+        ("id = \"dirt\"", "id = \"dirts\"", "did you mean `dirt`"),
+        ("at.anchor = 4", "at.anchor = 9", "9"),
+        ("number = \"inside - bare\"", "number = \"insid - bare\"", "did you mean `inside`"),
+        ("inside = { angle = [200, 240]", "inside = { angles = [200, 240]", "did you mean `angle`"),
+    ] {
+        let text = changed(&map, from, to);
+        assert!(text.contains(told), "{to}: {text}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+/// Every shipped file of environments can be run.
+#[test]
+fn the_shipped_files_are_in_order() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/environments");
+    let mut names: Vec<String> = std::fs::read_dir(&folder)
+        .unwrap()
+        .filter_map(|entry| entry.unwrap().file_name().into_string().ok())
+        .filter(|name| name.ends_with(".toml"))
+        .collect();
+    names.sort_unstable();
+    assert!(names.len() >= 8, "{names:?}");
+    let mut arguments = vec!["check"];
+    arguments.extend(names.iter().map(String::as_str));
+    done(&folder, &arguments);
+}

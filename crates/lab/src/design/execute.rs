@@ -1,0 +1,320 @@
+//! Running a design: candidate after candidate, into one folder.
+//!
+//! Each feasible candidate ends as one record of an append-only log, known by its attempt. So a stop at any moment loses what is
+//! in flight and nothing else, and the tables are the same for any number of threads and stops.
+
+use super::plan::Plan;
+use super::results::{Results, Trials};
+use super::robustness::{self, Copies};
+use super::{export, report, tables};
+use crate::environment::trial::{self, Outcome, Population, Tried};
+use crate::environment::work::{Watch, packed, spread, unpacked};
+use crate::store::StoreError;
+use crate::store::folder::{self, Folder};
+use crate::store::log::Log;
+use crate::store::texts::Texts;
+use measure::behaviours::Behaviour;
+use measure::statistics::Decision;
+use serde_json::{Value as Json, json};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use terrain::Construct;
+
+/// The log of candidates.
+pub const LOG: &str = "candidates.log";
+/// The page.
+pub const REPORT: &str = "report.html";
+/// Kinds of records: a candidate that was tried, a changed copy of one.
+const TRIED: u32 = 1;
+const CHANGED: u32 = 2;
+
+/// What the folder of a design holds, and what may be added to it.
+const WHAT: (&str, &str) = ("design", "candidates and statements");
+
+/// What became of a design.
+#[derive(Clone, Debug)]
+pub struct Done {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// Candidates that are left, where it was stopped.
+    pub left: usize,
+    /// Candidates tried in this session.
+    pub candidates: usize,
+    /// Seconds of this session.
+    pub seconds: f64,
+    /// Lines that say what came of it.
+    pub lines: Vec<String>,
+}
+
+fn differences(plan: &Plan, manifest: &Json) -> Vec<String> {
+    if manifest.get("kind").and_then(Json::as_str) != Some("design") {
+        return vec!["it holds no design".to_owned()];
+    }
+    folder::differences(manifest.get("identity").unwrap_or(&Json::Null), &plan.identity())
+}
+
+/// Reads the design of a folder again.
+///
+/// # Errors
+/// A folder that holds none, or one that cannot be read.
+pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
+    let damaged = |what: String| StoreError::Damaged(format!("`{}`: {what}", path.display()));
+    let manifest = folder::manifest(path)?
+        .filter(|manifest| manifest.get("kind").and_then(Json::as_str) == Some("design"))
+        .ok_or_else(|| StoreError::Refused(format!("`{}` is not the folder of a design", path.display())))?;
+    let texts = Texts::of(&manifest).ok_or_else(|| damaged("the manifest lacks what it should hold".to_owned()))?;
+    let (name, first) = texts.file();
+    super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
+        .map_err(|problems| damaged(problems.to_string()))
+}
+
+/// Runs what is missing of a design.
+///
+/// # Errors
+/// Where the folder is of something else, the system refuses, or a candidate is impossible. What was done before stays.
+pub fn run(
+    plan: &Plan,
+    threads: usize,
+    out: Option<&Path>,
+    program: &str,
+    watch: &mut dyn Watch,
+) -> Result<Done, StoreError> {
+    let stem = plan.sources.stem(0).unwrap_or("design");
+    let path = folder::place(out, stem, WHAT, &|manifest| differences(plan, manifest))?;
+    let folder = Folder::claim(&path)?;
+    // another process may have had the folder in the meantime
+    let before = folder::manifest(&path)?;
+    if let Some(manifest) = &before {
+        let lines = differences(plan, manifest);
+        if !lines.is_empty() {
+            return Err(folder::other(&path, WHAT, lines));
+        }
+    }
+    let mut manifest = before.unwrap_or_else(|| json!({ "format": 1, "kind": "design", "sessions": [] }));
+    manifest["title"] = json!(plan.form.title);
+    manifest["files"] = Texts::json(&plan.sources, &plan.sets, plan.quick);
+    manifest["identity"] = plan.identity();
+    manifest["status"] = json!("running");
+    if let Some(Json::Array(sessions)) = manifest.get_mut("sessions") {
+        sessions.push(crate::run::session(program, threads));
+    }
+    folder.write_manifest(&manifest)?;
+    let survey = plan.survey().map_err(StoreError::Refused)?;
+    let (mut log, mut there, mut copies) = opened(&folder, plan)?;
+    let missing: Vec<&(u64, Construct)> =
+        survey.feasible.iter().filter(|(attempt, _)| !there.contains_key(attempt)).collect();
+    watch.begin(&path, "candidates", missing.len(), survey.feasible.len() - missing.len(), threads);
+    let began = std::time::Instant::now();
+    let stop = watch.stopper();
+    let done = spread(
+        &missing,
+        threads,
+        &stop,
+        |(attempt, construct), stop| candidate(plan, *attempt, construct, stop),
+        |(attempt, _), trials| {
+            log.append(TRIED, &packed(words(*attempt, &trials)))?;
+            watch.done(updates(plan, &trials));
+            there.insert(*attempt, trials);
+            Ok(())
+        },
+    );
+    let mut left = survey.feasible.iter().filter(|(attempt, _)| !there.contains_key(attempt)).count();
+    let candidates = missing.len() - left;
+    let stopped = |manifest: &mut Json, error: StoreError| {
+        manifest["status"] = json!("stopped");
+        // the first error is the one to tell
+        let _ = folder.write_manifest(manifest);
+        error
+    };
+    done.map_err(|error| stopped(&mut manifest, error))?;
+    let mut lines = Vec::new();
+    if left == 0 {
+        let results = Results::new(plan, survey, there);
+        let all = robustness::copies(&results);
+        let missing: Vec<&robustness::Changed> = all.iter().filter(|copy| !copies.contains_key(*copy)).collect();
+        watch.more(missing.len());
+        let done = spread(
+            &missing,
+            threads,
+            &stop,
+            |copy, stop| robustness::tried(&results, copy, stop),
+            |copy, fitness| {
+                log.append(CHANGED, &packed([copy.0, copy.1, copy.2, copy.3, fitness.to_bits()]))?;
+                watch.done(0);
+                copies.insert(**copy, fitness);
+                Ok(())
+            },
+        );
+        done.map_err(|error| stopped(&mut manifest, error))?;
+        left = all.iter().filter(|copy| !copies.contains_key(*copy)).count();
+        if left == 0 {
+            lines = report::lines(&results);
+            finish(&folder, &results, &copies, program)?;
+        }
+    }
+    let seconds = began.elapsed().as_secs_f64();
+    if let Some(Json::Object(session)) =
+        manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|sessions| sessions.last_mut())
+    {
+        session.insert("seconds".into(), json!(seconds));
+        session.insert("candidates".into(), json!(candidates));
+    }
+    manifest["status"] = json!(if left == 0 { "complete" } else { "stopped" });
+    folder.write_manifest(&manifest)?;
+    Ok(Done { folder: path, left, candidates, seconds, lines })
+}
+
+/// Makes tables and page of a complete folder anew.
+///
+/// # Errors
+/// A folder that holds no complete design, or cannot be written to.
+pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
+    let plan = of_folder(path)?;
+    let folder = Folder::claim(path)?;
+    let (_, there, copies) = opened(&folder, &plan)?;
+    let survey = plan.survey().map_err(StoreError::Refused)?;
+    let missing = survey.feasible.iter().any(|(attempt, _)| !there.contains_key(attempt));
+    let results = Results::new(&plan, survey, there);
+    if missing || robustness::copies(&results).iter().any(|copy| !copies.contains_key(copy)) {
+        return Err(StoreError::Refused(format!("`{}` is not complete; the same run command goes on", path.display())));
+    }
+    finish(&folder, &results, &copies, program)
+}
+
+fn finish(folder: &Folder, results: &Results<'_>, copies: &Copies, program: &str) -> Result<(), StoreError> {
+    tables::write(folder, results)?;
+    // copies of environments that were the best of fewer candidates are left out
+    let wanted = robustness::copies(results);
+    let copies: Copies = wanted.into_iter().filter_map(|copy| Some((copy, *copies.get(&copy)?))).collect();
+    robustness::write(folder, results, &copies)?;
+    export::write(folder, results)?;
+    let html = crate::report::html(&report::page(results, &copies, program));
+    let path = folder.file(REPORT);
+    folder.write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+}
+
+fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, BTreeMap<u64, Vec<Trials>>, Copies), StoreError> {
+    let path = folder.file(LOG);
+    if !path.exists() {
+        return Ok((Log::create(&path)?, BTreeMap::new(), Copies::new()));
+    }
+    let (mut log, records) = Log::open(&path)?;
+    log.keep_until(records.last())?;
+    let (mut there, mut copies) = (BTreeMap::new(), Copies::new());
+    for record in &records {
+        let words = unpacked(&log.read(record)?);
+        let damaged = || StoreError::Damaged(format!("a record in `{}` is no candidate", path.display()));
+        match (record.kind, words.as_slice()) {
+            (TRIED, words) => {
+                let (attempt, trials) = trials_of(plan, words).ok_or_else(damaged)?;
+                there.insert(attempt, trials);
+            }
+            (CHANGED, &[attempt, perturbation, size, copy, fitness]) => {
+                copies.insert((attempt, perturbation, size, copy), f64::from_bits(fitness));
+            }
+            _ => return Err(damaged()),
+        }
+    }
+    Ok((log, there, copies))
+}
+
+/// A record: the attempt, then for each group the numbers of trials with and without the construct, then trial by trial the
+/// steps, and fitness and value of each behaviour.
+fn words(attempt: u64, trials: &[Trials]) -> Vec<u64> {
+    let mut words = vec![attempt];
+    for trials in trials {
+        words.extend([trials.built.len() as u64, trials.control.len() as u64]);
+        for tried in trials.built.iter().chain(&trials.control) {
+            words.push(tried.steps);
+            words.extend(tried.outcomes.iter().flat_map(|one| [one.fitness.to_bits(), one.value.to_bits()]));
+        }
+    }
+    words
+}
+
+fn trials_of(plan: &Plan, words: &[u64]) -> Option<(u64, Vec<Trials>)> {
+    let behaviours = plan.form.behaviour.0.len();
+    let mut words = words.iter().copied();
+    let attempt = words.next()?;
+    let mut all = Vec::with_capacity(plan.populations.len());
+    for _ in &plan.populations {
+        let (built, control) = (words.next()?, words.next()?);
+        let mut next = |count: u64| -> Option<Vec<Tried>> {
+            let one = |_| {
+                let steps = words.next()?;
+                let mut number = || words.next().map(f64::from_bits);
+                let outcome = |_| Some(Outcome { fitness: number()?, value: number()? });
+                Some(Tried { steps, outcomes: (0..behaviours).map(outcome).collect::<Option<_>>()? })
+            };
+            (0..count).map(one).collect()
+        };
+        all.push(Trials { built: next(built)?, control: next(control)? });
+    }
+    words.next().is_none().then_some((attempt, all))
+}
+
+/// Updates of agents in the trials of a candidate.
+fn updates(plan: &Plan, trials: &[Trials]) -> u64 {
+    let of = |(population, trials): (&Population, &Trials)| {
+        let steps: u64 = trials.built.iter().chain(&trials.control).map(|tried| tried.steps).sum();
+        population.members() as u64 * steps
+    };
+    plan.populations.iter().zip(trials).map(of).sum()
+}
+
+/// Tries a candidate with all groups; none where it was stopped.
+fn candidate(
+    plan: &Plan,
+    attempt: u64,
+    construct: &Construct,
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<Vec<Trials>>, String> {
+    let mut all = Vec::with_capacity(plan.populations.len());
+    for population in &plan.populations {
+        let arm = |built: bool| {
+            let pieces = if built { construct.pieces.as_slice() } else { &[] };
+            let geometry = plan.workspace.workspace.geometry.iter();
+            let scenario = population.among(geometry.chain(pieces.iter().flat_map(|piece| &piece.geometry)));
+            plan.behaviours(population, construct, built)
+                .map(|behaviours| (scenario, behaviours))
+                .map_err(|wrong| format!("candidate {attempt}, {}: {}", wrong.path, wrong.what))
+        };
+        let with = arm(true)?;
+        let without = if plan.form.control { Some(arm(false)?) } else { None };
+        let mut trials = Trials::default();
+        for trial in 1..=plan.form.trials {
+            let seed = plan.seed_of(attempt, trial);
+            let run = |(scenario, behaviours): &(crate::scenario::Scenario, Vec<Behaviour>)| {
+                match trial::run(scenario, population, behaviours, seed, stop, &mut |_| ()) {
+                    // impossible with this seed: no room for the group, for one
+                    Err(_) => {
+                        let nothing = Outcome { fitness: f64::NAN, value: f64::NAN };
+                        Some(Tried { steps: 0, outcomes: vec![nothing; behaviours.len()] })
+                    }
+                    Ok(tried) => tried,
+                }
+            };
+            let Some(tried) = run(&with) else { return Ok(None) };
+            trials.built.push(tried);
+            if let Some(without) = &without {
+                let Some(tried) = run(without) else { return Ok(None) };
+                trials.control.push(tried);
+            }
+            if decided(plan, &trials.built) {
+                break;
+            }
+        }
+        all.push(trials);
+    }
+    Ok(Some(all))
+}
+
+/// Whether the sequential test has decided for every behaviour.
+fn decided(plan: &Plan, trials: &[Tried]) -> bool {
+    let Some(test) = &plan.sequential else { return false };
+    (0..plan.form.behaviour.0.len()).all(|behaviour| {
+        let share = super::results::Share::of(trials, behaviour, plan.form.success);
+        test.decide(share.successes as u32, share.trials as u32) != Decision::Continue
+    })
+}

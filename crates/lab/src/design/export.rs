@@ -1,0 +1,93 @@
+//! The best environments as files: SVG to look at, GeoJSON to exchange, a scenario to run and to view.
+
+use super::plan::Plan;
+use super::results::{Results, Share};
+use crate::environment::trial::{Population, obstacles};
+use crate::file::write::toml;
+use crate::file::{Form, Node, Tree};
+use crate::store::StoreError;
+use crate::store::folder::{Folder, whole_file};
+use std::io::Write;
+use terrain::text::{geojson, svg};
+use terrain::{Construct, Environment};
+
+/// The folder of exported environments, inside that of the design.
+pub const ENVIRONMENTS: &str = "environments";
+
+/// The attempts with most successes for a group and a behaviour, the best first; of equals the earliest.
+pub fn best(results: &Results<'_>, population: usize, behaviour: usize, count: usize) -> Vec<(u64, Share)> {
+    let shares = results.shares(population, behaviour, None);
+    let mut ranked: Vec<(u64, Share)> = results.tried.iter().copied().zip(shares).collect();
+    ranked.retain(|(_, share)| share.trials > 0);
+    ranked.sort_by(|a, b| b.1.rate().total_cmp(&a.1.rate()).then(a.0.cmp(&b.0)));
+    ranked.truncate(count);
+    ranked
+}
+
+/// The environment of a construct.
+pub fn environment(plan: &Plan, construct: &Construct) -> Environment {
+    Environment { workspace: plan.workspace.workspace.clone(), construct: construct.clone(), schedule: None }
+}
+
+/// The scenario of a trial: run with its seed it is that trial, bit by bit.
+pub fn scenario(plan: &Plan, population: &Population, construct: &Construct, seed: u64, title: &str) -> String {
+    let mut tree = population.tree.clone();
+    let span = tree.span.clone();
+    let mut put = |key: &str, value: Tree| {
+        // a table takes any key
+        let _ = tree.set(key, Node { tree: value, span: span.clone() });
+    };
+    put("title", title.into());
+    put("seed", seed.write());
+    let geometry = plan.workspace.workspace.geometry.iter().chain(construct.geometry());
+    let mut all = population.scenario.obstacle.clone();
+    all.extend(obstacles(geometry));
+    put("obstacle", all.write());
+    toml(&tree)
+}
+
+/// Writes the best environments of each group and behaviour.
+///
+/// # Errors
+/// Where the system refuses.
+pub fn write(folder: &Folder, results: &Results<'_>) -> Result<(), StoreError> {
+    let plan = results.plan;
+    if plan.form.export == 0 {
+        return Ok(());
+    }
+    let below = folder.file(ENVIRONMENTS);
+    std::fs::create_dir_all(&below).map_err(|error| StoreError::io("make the folder", &below, error))?;
+    for (behaviour, name) in plan.behaviour_names().into_iter().enumerate() {
+        for (group, population) in plan.populations.iter().enumerate() {
+            for (attempt, share) in best(results, group, behaviour, plan.form.export) {
+                let Some((_, construct)) = results.survey.feasible.iter().find(|(own, _)| *own == attempt) else {
+                    continue;
+                };
+                let stem = format!("{name}-{}-{attempt}", population.name);
+                let success = |trial: &usize| {
+                    let trials = results.trials.get(&attempt).and_then(|all| all.get(group));
+                    let outcome =
+                        trials.and_then(|trials| trials.built.get(trial - 1)?.outcomes.get(behaviour).copied());
+                    outcome.is_some_and(|outcome| outcome.fitness >= plan.form.success)
+                };
+                let trial = (1..=plan.form.trials).find(success).unwrap_or(1);
+                let title = format!(
+                    "{name}, {}: candidate {attempt}, {} of {}",
+                    population.name, share.successes, share.trials
+                );
+                let environment = environment(plan, construct);
+                for (ending, text) in [
+                    ("svg", svg::write(&environment)),
+                    ("geojson", geojson::write(&environment)),
+                    ("toml", scenario(plan, population, construct, plan.seed_of(attempt, trial), &title)),
+                ] {
+                    let path = below.join(format!("{stem}.{ending}"));
+                    whole_file(&path, |out| {
+                        out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error))
+                    })?;
+                }
+            }
+        }
+    }
+    Ok(())
+}

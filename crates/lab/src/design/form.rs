@@ -1,0 +1,152 @@
+//! The forms of a design file.
+
+use crate::environment::behaviour::BehaviourForm;
+use crate::environment::candidates::{Candidates, Placing};
+use crate::environment::filter::FilterForm;
+use crate::environment::trial::PopulationForm;
+use crate::environment::workspace::Workspace;
+use crate::file::{Anything, Named};
+use crate::study::form::{Claim, empty};
+use crate::{form, tagged, words};
+
+words! {
+    /// What kind of file it is.
+    pub enum FileKind {
+        /// Environments that are generated and tried.
+        Design = "design",
+    }
+}
+
+form! {
+    /// Wald's sequential test: an environment is tried until it is clear whether the group succeeds with the higher
+    /// probability or the lower one.
+    pub struct Sequential {
+        /// The lower probability.
+        lower: f64 = [0.5], "1", Within(0.0001, 0.9999);
+        /// The higher probability.
+        higher: f64 = [0.8], "1", Within(0.0001, 0.9999);
+        /// Chance to accept the lower one.
+        alpha: f64 = [0.05], "1", Within(0.0001, 0.4999);
+        /// Chance to reject the higher one.
+        beta: f64 = [0.05], "1", Within(0.0001, 0.4999);
+    }
+}
+
+tagged! {
+    /// When an environment counts as valid.
+    pub enum Valid {
+        /// The share of successes is at least this.
+        rate in "1", swarm::parameters::Range::Within(0.0, 1.0) => Rate(f64);
+        /// The lower end of the 95 % Wilson interval of the share is at least this.
+        lower_bound in "1", swarm::parameters::Range::Within(0.0, 1.0) => LowerBound(f64);
+    }
+}
+
+impl Valid {
+    /// Whether so many successes in so many trials make an environment valid.
+    pub fn holds(&self, successes: u64, trials: u64) -> bool {
+        match *self {
+            Self::Rate(least) => trials > 0 && successes as f64 / trials as f64 >= least,
+            Self::LowerBound(least) => {
+                measure::statistics::wilson(successes, trials, 0.95).is_ok_and(|interval| interval.low >= least)
+            }
+        }
+    }
+}
+
+words! {
+    /// How environments are changed.
+    pub enum ByWord {
+        /// Each joint is displaced by at most so much.
+        Joints = "joints",
+        /// All of it is displaced by so much.
+        Shift = "shift",
+        /// All of it is turned by at most so many degrees.
+        Turn = "turn",
+        /// Each wall loses this share of its length.
+        Shorten = "shorten",
+        /// So many pieces are missing.
+        Remove = "remove",
+    }
+}
+
+form! {
+    /// A change of environments, in several sizes.
+    pub struct PerturbationForm {
+        /// How they are changed.
+        by: ByWord = need, "", Any;
+        /// By how much: lengths, degrees, shares, or pieces.
+        sizes: Vec<f64> = need, "", NonNegative;
+    }
+}
+
+form! {
+    /// How much the best environments may be off.
+    pub struct Robustness {
+        /// The behaviour; left out, the first.
+        behaviour: Option<String> = none, "", Any;
+        /// The group; left out, the first.
+        population: Option<String> = none, "", Any;
+        /// How many environments are changed: those with most successes.
+        environments: usize = [3usize], "1", Within(1.0, 10_000.0);
+        /// Changed copies of each, for every size; each is tried once.
+        copies: usize = [20usize], "1", Within(1.0, 100_000.0);
+        /// The changes.
+        perturbation: Vec<PerturbationForm> = need, "", Any;
+    }
+}
+
+form! {
+    /// A design: environments are generated, filtered, and tried on groups.
+    pub struct Design {
+        /// What kind of file this is.
+        kind: FileKind = need, "", Any;
+        /// A title of a few words.
+        title: String = need, "", Any;
+        /// What it is and what it asks; paragraphs are parted by empty lines.
+        about: String = [""], "", Any;
+        /// Seed of generation and trials.
+        seed: u64 = [0u64], "1", NonNegative;
+        /// What is there already.
+        workspace: Workspace = [Workspace::default()], "", Any;
+        /// Where environments come from.
+        candidates: Candidates = need, "", Any;
+        /// What becomes of the parts of a construct outside the workspace.
+        placement: Placing = [Placing::Keep], "", Any;
+        /// What makes a construct feasible: all of these must pass.
+        filter: Vec<FilterForm> = [Vec::new()], "", Any;
+        /// Most candidates that are generated.
+        attempts: u64 = [1000u64], "1", Within(1.0, 10_000_000.0);
+        /// Most candidates that are generated with `--quick`.
+        quick_attempts: u64 = [20u64], "1", Within(1.0, 10_000_000.0);
+        /// Generation ends with so many feasible candidates; left out, with the attempts.
+        feasible: Option<u64> = none, "1", Positive;
+        /// The scenario: the name of a file beside this one, or the scenario itself as a table. Its start is the group's;
+        /// workspace and construct are put into it.
+        scenario: Option<Anything> = none, "", Any;
+        /// Values put over the scenario's. Tables are joined key by key; a path in quotes puts its value as it is.
+        set: Anything = [empty()], "", Any;
+        /// Groups that are tried, by names of yours; left out, the scenario's alone.
+        population: Named<PopulationForm> = [Named::default()], "", Any;
+        /// What is wanted, by names of yours. All are watched in the same trials.
+        behaviour: Named<BehaviourForm> = need, "", Any;
+        /// Trials of each environment; with a sequential test, at most so many.
+        trials: usize = [10usize], "1", Within(1.0, 100_000.0);
+        /// Stop trying an environment as soon as it is decided (for all behaviours).
+        sequential: Option<Sequential> = none, "", Any;
+        /// Least fitness of a trial that succeeded.
+        success: f64 = [1.0], "1", Within(0.0, 1.0);
+        /// When an environment counts as valid.
+        valid: Valid = [Valid::Rate(0.8)], "", Any;
+        /// Whether every trial is made once more without the construct.
+        control: bool = [true], "", Any;
+        /// Whether the best environments still work where they are off a little.
+        robustness: Option<Robustness> = none, "", Any;
+        /// Environments that the page draws.
+        show: usize = [12usize], "1", Within(0.0, 200.0);
+        /// Environments written as SVG, GeoJSON and scenario, of each group and behaviour those with most successes.
+        export: usize = [1usize], "1", Within(0.0, 1000.0);
+        /// Statements to judge, over `rate`, `control`, `tightness`, `value`, `fitness`, `rates`, `generated`, `feasible`.
+        claim: Vec<Claim> = [Vec::new()], "", Any;
+    }
+}

@@ -1,0 +1,287 @@
+//! From a design file to a workspace, candidates, groups and behaviours.
+
+use super::form::Design;
+use super::results::Results;
+use crate::environment::behaviour::Around;
+use crate::environment::candidates::Source;
+use crate::environment::trial::{self, Population};
+use crate::environment::workspace::Resolved;
+use crate::environment::{claims, trial::populations};
+use crate::file::tree::parse;
+use crate::file::{Desk, Form, Node, Problems, Rule, Sources, Span};
+use crate::scenario::build;
+use crate::study::plan::{Files, Load};
+use measure::behaviours::Behaviour;
+use measure::statistics::SequentialTest;
+use serde_json::{Value as Json, json};
+use space::random::child_seed;
+use terrain::filters::Combined;
+use terrain::generate::{Counts, Generation};
+use terrain::{Construct, Environment};
+
+/// Kinds of child seeds, beside those of searches: a candidate, and a trial of it.
+const CANDIDATE: u32 = 4;
+pub(crate) const TRIAL: u32 = 5;
+/// Candidates looked at for one that behaviours can be checked with.
+const LOOKED_AT: u64 = 1000;
+
+/// A design as resolved.
+pub struct Plan {
+    /// What was written.
+    pub form: Design,
+    /// What is there already.
+    pub workspace: Resolved,
+    /// Where candidates come from.
+    pub source: Source,
+    /// What makes them feasible.
+    pub filter: Combined,
+    /// The groups.
+    pub populations: Vec<Population>,
+    /// When to stop trying.
+    pub sequential: Option<SequentialTest>,
+    /// Most candidates that are generated.
+    pub attempts: u64,
+    /// The texts of the files that candidates come from.
+    pub texts: Vec<String>,
+    /// The texts it was read from, with their names; the first is the file itself.
+    pub sources: Sources,
+    /// What was put over the file.
+    pub sets: Vec<String>,
+    /// Whether it was planned quick.
+    pub quick: bool,
+}
+
+/// The candidates that were generated.
+#[derive(Clone, Debug, Default)]
+pub struct Survey {
+    /// How many came how far.
+    pub counts: Counts,
+    /// The feasible ones, by their attempts.
+    pub feasible: Vec<(u64, Construct)>,
+}
+
+impl Plan {
+    /// Generates and filters.
+    ///
+    /// # Errors
+    /// A candidate that is impossible in the workspace, in a sentence.
+    pub fn survey(&self) -> Result<Survey, String> {
+        self.generated(self.attempts, self.form.feasible.unwrap_or(u64::MAX))
+    }
+    fn generated(&self, attempts: u64, wanted: u64) -> Result<Survey, String> {
+        let generation = Generation {
+            candidates: &self.source,
+            workspace: &self.workspace.workspace,
+            placement: self.form.placement.into(),
+            filter: &self.filter,
+            seed: self.form.seed,
+            wanted,
+            first: 0,
+            attempts,
+        };
+        let mut feasible = Vec::new();
+        let keep = |environment: Environment, _: bool| {
+            feasible.push((environment.construct.provenance.attempt, environment.construct));
+        };
+        let counts = generation.run(|_| false, keep).map_err(|error| error.to_string())?;
+        Ok(Survey { counts, feasible })
+    }
+    /// Names of the behaviours, in order.
+    pub fn behaviour_names(&self) -> Vec<&str> {
+        self.form.behaviour.0.iter().map(|(name, _)| name.as_str()).collect()
+    }
+    /// The behaviours where a construct stands in the workspace, and the path and the words of what is wrong.
+    ///
+    /// # Errors
+    /// Names that are not there.
+    pub fn behaviours(
+        &self,
+        population: &Population,
+        construct: &Construct,
+        built: bool,
+    ) -> Result<Vec<Behaviour>, build::Wrong> {
+        let setting = self.workspace.setting(construct, built);
+        let around = Around { setting: &setting, groups: &population.groups };
+        let one = |(name, form): &(String, crate::environment::behaviour::BehaviourForm)| {
+            form.plain(name, around).map_err(|wrong| wrong.below(&format!("behaviour.{name}")))
+        };
+        self.form.behaviour.0.iter().map(one).collect()
+    }
+    /// The seed of a trial of a candidate: the same for all groups, with the construct and without it. It has 63 bits, so
+    /// that a file can give it.
+    pub fn seed_of(&self, attempt: u64, trial: usize) -> u64 {
+        child_seed(child_seed(self.form.seed, CANDIDATE, attempt, 0), TRIAL, trial as u64, 0) >> 1
+    }
+    /// What the results of a candidate depend on: candidates may be added, and statements are made afterwards.
+    pub fn identity(&self) -> Json {
+        let mut form = self.form.clone();
+        (form.title, form.about) = (String::new(), String::new());
+        (form.attempts, form.quick_attempts, form.feasible) = (1, 1, None);
+        (form.show, form.export) = (0, 0);
+        form.claim = Vec::new();
+        form.scenario = None;
+        let scenario = |population: &Population| {
+            let mut scenario = population.scenario.clone();
+            (scenario.title, scenario.about, scenario.seed) = (String::new(), String::new(), None);
+            (population.name.clone(), scenario.write().json())
+        };
+        let scenarios: serde_json::Map<String, Json> = self.populations.iter().map(scenario).collect();
+        let there = terrain::text::wkt::write(&self.workspace.workspace.geometry);
+        json!({ "design": form.write().json(), "scenarios": scenarios, "workspace": there, "files": self.texts })
+    }
+}
+
+/// Reads a design from its text, the values put over it, and the files it names.
+///
+/// # Errors
+/// Everything that is wrong with it, at its place.
+pub fn read(name: &str, text: &str, sets: &[String], quick: bool, load: Load<'_>) -> Result<Plan, Problems> {
+    let mut files = Files { sources: Sources::default(), desk: Desk::default(), load };
+    let plan = planned(&mut files, name, text, sets, quick);
+    match plan {
+        Some(mut plan) if files.desk.problems.is_empty() => {
+            plan.sources = files.sources;
+            Ok(plan)
+        }
+        _ => Err(Problems::new(files.sources, files.desk.problems)),
+    }
+}
+
+/// The text of a file and what is put over it, as a tree.
+pub(crate) fn opened(files: &mut Files<'_>, name: &str, text: &str, sets: &[String]) -> Option<Node> {
+    let source = files.sources.add(name, text);
+    let mut tree = parse(&files.sources, source, &mut files.desk.problems);
+    build::put(&mut tree, sets, &mut files.sources, &mut files.desk);
+    files.desk.problems.is_empty().then_some(tree)
+}
+
+/// The workspace of a file.
+pub(crate) fn workspace(
+    files: &mut Files<'_>,
+    form: &crate::environment::workspace::Workspace,
+    name: &str,
+    tree: &Node,
+) -> Option<Resolved> {
+    let text = match form.picture() {
+        Some(picture) => files.loaded(name, &picture.name, &tree.place("workspace.base.file.name"))?,
+        None => (String::new(), String::new()),
+    };
+    if form.picture().is_some() {
+        files.sources.add(&text.0, &text.1);
+    }
+    match form.resolved(&text.1) {
+        Ok(resolved) => Some(resolved),
+        Err(wrong) => {
+            let place = tree.place(&format!("workspace.{}", wrong.path));
+            files.desk.problem(&place, wrong.what, wrong.expected, wrong.help);
+            None
+        }
+    }
+}
+
+fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick: bool) -> Option<Plan> {
+    let tree = opened(files, name, text, sets)?;
+    let form = Design::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut files.desk)
+        .filter(|_| files.desk.problems.is_empty())?;
+    let workspace = workspace(files, &form.workspace, name, &tree)?;
+    let mut texts = Vec::new();
+    for (path, file) in form.candidates.files() {
+        let (path, text) = files.loaded(name, &file, &tree.place(&path))?;
+        files.sources.add(&path, &text);
+        texts.push(text);
+    }
+    let units = workspace.workspace.units;
+    let source = form.candidates.source(&texts, units, &tree, &mut files.desk)?;
+    let mut filters = Vec::new();
+    for (k, filter) in form.filter.iter().enumerate() {
+        match filter.plain() {
+            Ok(filter) => filters.push(filter),
+            Err(what) => files.desk.problem(&tree.place(&format!("filter.{k}")), what, "a filter", ""),
+        }
+    }
+    let start = Span { source: tree.span.source, bytes: 0..0 };
+    let base = files.scenario(form.scenario.as_ref(), &form.title, &form.set.0, &start, "design")?;
+    let populations = populations(&base, &form.population, units, files)?;
+    let sequential = match &form.sequential {
+        None => None,
+        Some(test) => match SequentialTest::new(test.lower, test.higher, test.alpha, test.beta, form.trials as u32) {
+            Ok(test) => Some(test),
+            Err(error) => {
+                files.desk.problem(&tree.place("sequential"), error.to_string(), "not possible", "");
+                None
+            }
+        },
+    };
+    if let Some(robustness) = &form.robustness {
+        let behaviours: Vec<&str> = form.behaviour.0.iter().map(|(name, _)| name.as_str()).collect();
+        let groups: Vec<&str> = populations.iter().map(|population| population.name.as_str()).collect();
+        for (key, given, known) in
+            [("behaviour", &robustness.behaviour, behaviours), ("population", &robustness.population, groups)]
+        {
+            if let Some(name) = given.as_deref().filter(|name| !known.contains(name)) {
+                let near = space::spelling::nearest(name, known.iter().copied());
+                let help = near.map_or_else(String::new, |near| format!("did you mean `{near}`?"));
+                let place = tree.place(&format!("robustness.{key}"));
+                files.desk.problem(&place, format!("there is no {key} `{name}`"), "one of the file's", help);
+            }
+        }
+    }
+    if form.behaviour.0.is_empty() {
+        files.desk.problem(&tree.place("behaviour"), "nothing is wanted", "at least one [behaviour.NAME]", "");
+    }
+    let attempts = if quick { form.quick_attempts.min(form.attempts) } else { form.attempts };
+    let plan = Plan {
+        form,
+        workspace,
+        source,
+        filter: Combined::All(filters),
+        populations,
+        sequential,
+        attempts,
+        texts,
+        sources: Sources::default(),
+        sets: sets.to_vec(),
+        quick,
+    };
+    if files.desk.problems.is_empty() {
+        tried(&plan, &tree, &mut files.desk);
+    }
+    Some(plan)
+}
+
+/// Whether a first feasible candidate gives a world in which the behaviours have a meaning.
+fn tried(plan: &Plan, tree: &Node, desk: &mut Desk) {
+    let construct = match plan.generated(LOOKED_AT, 1) {
+        Ok(survey) => match survey.feasible.into_iter().next() {
+            Some((_, construct)) => construct,
+            None => {
+                let why: Vec<String> =
+                    survey.counts.reasons.iter().map(|(reason, count)| format!("{count}: {reason}")).collect();
+                let what = format!("none of the first {} candidates is feasible", survey.counts.generated);
+                desk.problem(&tree.place("filter"), what, why.join("; "), "");
+                return;
+            }
+        },
+        Err(what) => {
+            desk.problem(&tree.place("candidates"), what, "not possible", "");
+            return;
+        }
+    };
+    for population in &plan.populations {
+        match plan.behaviours(population, &construct, true) {
+            Err(wrong) => desk.problem(&tree.place(&wrong.path), wrong.what, wrong.expected, wrong.help),
+            Ok(behaviours) => {
+                let geometry = plan.workspace.workspace.geometry.iter().chain(construct.geometry());
+                let scenario = population.among(geometry);
+                // stopped at once: that it can begin is what is asked
+                if let Err(what) =
+                    trial::run(&scenario, population, &behaviours, plan.seed_of(0, 1), &|| true, &mut |_| ())
+                {
+                    let what = format!("`{}` cannot begin: {what}", population.name);
+                    desk.problem(&tree.place("scenario"), what, "not possible", "");
+                }
+            }
+        }
+    }
+    claims::check(&plan.form.claim, &Results::example(plan), "claim", tree, desk);
+}

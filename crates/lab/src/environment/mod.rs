@@ -1,0 +1,13 @@
+//! Environments that steer a group, in files: workspaces, grammars, filters and behaviours as they are written, the trials by
+//! which an environment is judged, and the statements that are made of the results. What files of the kinds `design` and `map`
+//! have in common stands here; geometry and behaviours themselves are of the rooms `terrain` and `measure`.
+
+pub mod behaviour;
+pub mod candidates;
+pub mod claims;
+pub mod filter;
+pub mod grammar;
+pub mod signal;
+pub mod trial;
+pub mod work;
+pub mod workspace;

@@ -1,0 +1,98 @@
+//! Maps of a parameter space as static SVG: cells by what was found in them, or symbols at their centres.
+
+use super::escape::markup;
+use super::number::{axis_title, number, place};
+use super::{Map, MapPanel};
+use core::fmt::Write;
+
+/// Width and height of a panel, and of its plot.
+const WIDTH: f64 = 400.0;
+const LEFT: f64 = 52.0;
+const TOP: f64 = 10.0;
+const PLOT: (f64, f64) = (338.0, 250.0);
+const HEIGHT: f64 = 306.0;
+/// Marks along an axis.
+const TICKS: usize = 5;
+
+/// A panel as SVG.
+pub(super) fn panel(map: &Map, panel: &MapPanel) -> String {
+    let ends = |axis: &super::Axis| axis.range.unwrap_or((0.0, 1.0));
+    let (x_ends, y_ends) = (ends(&map.x), ends(&map.y));
+    let x = |value: f64| LEFT + (value - x_ends.0) / (x_ends.1 - x_ends.0) * PLOT.0;
+    let y = |value: f64| TOP + PLOT.1 - (value - y_ends.0) / (y_ends.1 - y_ends.0) * PLOT.1;
+    let mut svg = String::new();
+    // writing to a string cannot fail, here and below
+    let _ = write!(
+        svg,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"scene map\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" \
+         aria-label=\"{}\"><rect class=\"floor\" x=\"{LEFT}\" y=\"{TOP}\" width=\"{}\" height=\"{}\"/>",
+        markup(&panel.caption),
+        PLOT.0,
+        PLOT.1
+    );
+    for cell in &panel.cells {
+        let (left, top) = (x(cell.low[0]), y(cell.high[1]));
+        let (width, height) = (x(cell.high[0]) - left, y(cell.low[1]) - top);
+        let rate = cell.rate.clamp(0.0, 1.0);
+        if map.areas && rate > 0.0 {
+            let _ = write!(
+                svg,
+                "<rect class=\"rate\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill-opacity=\"{}\"/>",
+                place(left),
+                place(top),
+                place(width),
+                place(height),
+                place(0.08 + 0.92 * rate)
+            );
+        }
+        let (cx, cy) = (left + width / 2.0, top + height / 2.0);
+        let arm = (width.min(height) * 0.35).clamp(0.6, 4.0);
+        if cell.valid {
+            let _ = write!(
+                svg,
+                "<path class=\"plus\" d=\"M{} {}h{}M{} {}v{}\"/>",
+                place(cx - arm),
+                place(cy),
+                place(2.0 * arm),
+                place(cx),
+                place(cy - arm),
+                place(2.0 * arm)
+            );
+        } else if !map.areas {
+            let _ = write!(
+                svg,
+                "<circle class=\"not\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
+                place(cx),
+                place(cy),
+                place(arm * 0.45)
+            );
+        }
+    }
+    let _ = write!(svg, "<rect class=\"frame\" x=\"{LEFT}\" y=\"{TOP}\" width=\"{}\" height=\"{}\"/>", PLOT.0, PLOT.1);
+    for k in 0..TICKS {
+        let share = k as f64 / (TICKS - 1) as f64;
+        let (at_x, at_y) = (x_ends.0 + share * (x_ends.1 - x_ends.0), y_ends.0 + share * (y_ends.1 - y_ends.0));
+        let _ = write!(
+            svg,
+            "<text class=\"tick\" text-anchor=\"middle\" x=\"{}\" y=\"{}\">{}</text>\
+             <text class=\"tick\" text-anchor=\"end\" x=\"{}\" y=\"{}\">{}</text>",
+            place(x(at_x)),
+            place(TOP + PLOT.1 + 16.0),
+            number(at_x),
+            place(LEFT - 6.0),
+            place(y(at_y) + 4.0),
+            number(at_y)
+        );
+    }
+    let _ = write!(
+        svg,
+        "<text class=\"view\" text-anchor=\"middle\" x=\"{}\" y=\"{}\">{}</text>\
+         <text class=\"view\" text-anchor=\"middle\" transform=\"translate(13 {}) rotate(-90)\">{}</text></svg>",
+        place(LEFT + PLOT.0 / 2.0),
+        place(HEIGHT - 10.0),
+        markup(&axis_title(&map.x.label, &map.x.unit)),
+        place(TOP + PLOT.1 / 2.0),
+        markup(&axis_title(&map.y.label, &map.y.unit))
+    );
+    svg
+}
