@@ -185,7 +185,8 @@ fn crowd(model: &str, given: &[(&str, Value)], sets: &[(&str, Perception<f64, 2>
         let sensing = crate::sensing::Ideal { range: Some(1e6), ..Default::default() };
         oracle.plan.groups[0].sensing = crate::engine::Sensing::Ideal(sensing);
     }
-    let place = |k: usize| (k as f64 * 7.31) % 40.0;
+    // nobody stands just between two others: a sum that comes to nothing gives way, where a published law may not
+    let place = |k: usize| (k as f64 * 7.31 + (k * k) as f64 * 0.0173) % 40.0;
     let agents: Vec<_> =
         (0..300).map(|k| ([place(k), place(5 * k + 1)], [(k as f64).cos(), (k as f64).sin()])).collect();
     let mut world = oracle.world(&agents);
