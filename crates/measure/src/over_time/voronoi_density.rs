@@ -32,9 +32,13 @@ const fn floor(name: &'static str, default: f64, about: &'static str) -> Paramet
     Parameter { name, unit: "length", default: Some(default), bounds: Bounds::Any, about }
 }
 
-const FLOOR_X1: Parameter =
-    floor("floor_x1", f64::NEG_INFINITY, "x of one corner of the floor, at whose edges cells end; left out, there is none.");
-const FLOOR_Y1: Parameter = floor("floor_y1", f64::NEG_INFINITY, "y of one corner of the floor; left out, there is no edge.");
+const FLOOR_X1: Parameter = floor(
+    "floor_x1",
+    f64::NEG_INFINITY,
+    "x of one corner of the floor, at whose edges cells end; left out, there is none.",
+);
+const FLOOR_Y1: Parameter =
+    floor("floor_y1", f64::NEG_INFINITY, "y of one corner of the floor; left out, there is no edge.");
 const FLOOR_X2: Parameter = floor("floor_x2", f64::INFINITY, "x of its opposite corner; left out, there is no edge.");
 const FLOOR_Y2: Parameter = floor("floor_y2", f64::INFINITY, "y of its opposite corner; left out, there is no edge.");
 

@@ -268,8 +268,8 @@ impl<R: Scalar> Sight for ByAxes<'_, R> {
         let mut members = self.seen.marks[set][block];
         if set != AVOIDANCE || self.law.avoid_blind {
             for l in 0..BLOCK {
-                let hidden = members >> l & 1 == 1
-                    && !self.law.sees_by_axes(self.angles, self.seen.at(block * BLOCK + l).0);
+                let hidden =
+                    members >> l & 1 == 1 && !self.law.sees_by_axes(self.angles, self.seen.at(block * BLOCK + l).0);
                 members &= !(u16::from(hidden) << l);
             }
         }

@@ -71,7 +71,8 @@ impl Parameter for Terms {
 
 /// The boid rules: the terms of a composition that names none.
 fn boid_rules() -> Value {
-    let given = |given: &[(&str, Value)]| given.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
+    let given =
+        |given: &[(&str, Value)]| given.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
     Terms(vec![
         ("repel".into(), given(&[("scale", 10.0.into())])),
         ("align".into(), Values::new()),
@@ -577,4 +578,3 @@ impl<R: Scalar> Composed<R> {
         wanted.turned_by(noise, axis)
     }
 }
-

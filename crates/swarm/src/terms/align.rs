@@ -1,8 +1,8 @@
 //! Takes the direction of others.
 
 use super::*;
-use crate::parameters;
 use crate::motion::splat;
+use crate::parameters;
 
 parameters! {
     /// Parameters of `align`.
