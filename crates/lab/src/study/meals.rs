@@ -101,13 +101,12 @@ time.duration = 60
 [space]
 dimensions = 2
 edges = "walls"
-size = 60
+size = 40
 [food]
-count = 6
+count = 20
 within = 5
 gains = { energy = { amount = 40, capacity = 100 }, health = { amount = 10, capacity = 100 } }
 respawn.after = 0
-metabolism = { cost = 1 }
 [group.red]
 count = 6
 model.competing_flocks = { flock = 0 }
@@ -116,9 +115,9 @@ count = 4
 model.competing_flocks = { flock = 1 }
 "#;
 
-    const STEPS: u32 = 300;
+    const STEPS: u32 = 100;
 
-    fn read(quantity: FoodQuantity, group: Option<&str>, near: f64) -> (Option<f64>, u64) {
+    fn read(quantity: FoodQuantity, group: Option<&str>, near: f64) -> (Option<f64>, u64, f64) {
         let scenario = build::read("two.toml", WORLD, &[]).unwrap().scenario;
         let mut world = build::world::<f64, 2>(&scenario, 3, 1).unwrap();
         let mut meals = Meals::new(&FoodReading { quantity, group: group.map(str::to_owned), near }, &world).unwrap();
@@ -126,19 +125,19 @@ model.competing_flocks = { flock = 1 }
             world.step();
             meals.step(&world);
         }
-        (meals.value(&world), world.resources().unwrap().consumed)
+        (meals.value(&world), world.resources().unwrap().consumed, world.time())
     }
 
     #[test]
     fn what_is_eaten_is_what_the_groups_eat() {
         let of = |group| read(FoodQuantity::Meals, group, 20.0).0.unwrap();
-        let (all, consumed) = read(FoodQuantity::Meals, None, 20.0);
-        assert!(consumed > 20, "{consumed}");
+        let (all, consumed, time) = read(FoodQuantity::Meals, None, 20.0);
+        assert!(consumed > 10, "{consumed}");
         assert_eq!(all, Some(consumed as f64 / 10.0));
         assert!((6.0 * of(Some("red")) + 4.0 * of(Some("blue")) - consumed as f64).abs() < 1e-9);
         let wait = read(FoodQuantity::Wait, None, 20.0).0.unwrap();
-        // six items in steps of 1, each waiting for at most all of them
-        assert!(wait > 0.0 && wait * consumed as f64 <= 6.0 * f64::from(STEPS) + 1e-9, "{wait}");
+        // twenty items, each waiting for at most all of the time
+        assert!(wait > 0.0 && wait * consumed as f64 <= 20.0 * time + 1e-9, "{wait}");
     }
 
     #[test]
