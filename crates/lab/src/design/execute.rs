@@ -11,6 +11,7 @@ use crate::environment::trial::{self, Outcome, Population, Tried};
 use crate::environment::work::{Watch, packed, spread, unpacked};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
+use crate::store::job::{Job, Kind};
 use crate::store::log::Log;
 use crate::store::texts::Texts;
 use measure::behaviours::Behaviour;
@@ -30,7 +31,7 @@ const TRIED: u32 = 1;
 const CHANGED: u32 = 2;
 
 /// What the folder of a design holds, and what may be added to it.
-const WHAT: (&str, &str) = ("design", "candidates and statements");
+const KIND: Kind = Kind { name: "design", one: "a design", may_grow: "candidates and statements" };
 
 /// What became of a design.
 #[derive(Clone, Debug)]
@@ -47,26 +48,16 @@ pub struct Done {
     pub lines: Vec<String>,
 }
 
-fn differences(plan: &Plan, manifest: &Json) -> Vec<String> {
-    if manifest.get("kind").and_then(Json::as_str) != Some("design") {
-        return vec!["it holds no design".to_owned()];
-    }
-    folder::differences(manifest.get("identity").unwrap_or(&Json::Null), &plan.identity())
-}
-
 /// Reads the design of a folder again.
 ///
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
 pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
-    let damaged = |what: String| StoreError::Damaged(format!("`{}`: {what}", path.display()));
-    let manifest = folder::manifest(path)?
-        .filter(|manifest| manifest.get("kind").and_then(Json::as_str) == Some("design"))
-        .ok_or_else(|| StoreError::Refused(format!("`{}` is not the folder of a design", path.display())))?;
-    let texts = Texts::of(&manifest).ok_or_else(|| damaged("the manifest lacks what it should hold".to_owned()))?;
-    let (name, first) = texts.file();
-    super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
-        .map_err(|problems| damaged(problems.to_string()))
+    KIND.read(path, |texts| {
+        let (name, first) = texts.file();
+        super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
+            .map_err(|problems| problems.to_string())
+    })
 }
 
 /// Runs what is missing of a design.
@@ -81,27 +72,16 @@ pub fn run(
     watch: &mut dyn Watch,
 ) -> Result<Done, StoreError> {
     let stem = plan.sources.stem(0).unwrap_or("design");
-    let path = folder::place(out, stem, WHAT, &|manifest| differences(plan, manifest))?;
-    let folder = Folder::claim(&path)?;
-    // another process may have had the folder in the meantime
-    let before = folder::manifest(&path)?;
-    if let Some(manifest) = &before {
-        let lines = differences(plan, manifest);
-        if !lines.is_empty() {
-            return Err(folder::other(&path, WHAT, lines));
-        }
-    }
-    let mut manifest = before.unwrap_or_else(|| json!({ "format": 1, "kind": "design", "sessions": [] }));
-    manifest["title"] = json!(plan.form.title);
-    manifest["files"] = Texts::json(&plan.sources, &plan.sets, plan.quick);
-    manifest["identity"] = plan.identity();
-    manifest["status"] = json!("running");
-    if let Some(Json::Array(sessions)) = manifest.get_mut("sessions") {
-        sessions.push(crate::run::session(program, threads));
-    }
-    folder.write_manifest(&manifest)?;
+    let differences = |manifest: &Json| KIND.differences(manifest, &plan.identity());
+    let path = folder::place(out, stem, (KIND.name, KIND.may_grow), &differences)?;
+    let about = [
+        ("title", json!(plan.form.title)),
+        ("files", Texts::json(&plan.sources, &plan.sets, plan.quick)),
+        ("identity", plan.identity()),
+    ];
+    let mut job = Job::begin(KIND, &path, &about, &differences, (program, threads))?;
     let survey = plan.survey().map_err(StoreError::Refused)?;
-    let (mut log, mut there, mut copies) = opened(&folder, plan)?;
+    let (mut log, mut there, mut copies) = opened(&job.folder, plan)?;
     let missing: Vec<&(u64, Construct)> =
         survey.feasible.iter().filter(|(attempt, _)| !there.contains_key(attempt)).collect();
     watch.begin(&path, "candidates", missing.len(), survey.feasible.len() - missing.len(), threads);
@@ -121,13 +101,7 @@ pub fn run(
     );
     let mut left = survey.feasible.iter().filter(|(attempt, _)| !there.contains_key(attempt)).count();
     let candidates = missing.len() - left;
-    let stopped = |manifest: &mut Json, error: StoreError| {
-        manifest["status"] = json!("stopped");
-        // the first error is the one to tell
-        let _ = folder.write_manifest(manifest);
-        error
-    };
-    done.map_err(|error| stopped(&mut manifest, error))?;
+    done.map_err(|error| job.fail(error))?;
     let mut lines = Vec::new();
     if left == 0 {
         let results = Results::new(plan, survey, there);
@@ -146,22 +120,16 @@ pub fn run(
                 Ok(())
             },
         );
-        done.map_err(|error| stopped(&mut manifest, error))?;
+        done.map_err(|error| job.fail(error))?;
         left = all.iter().filter(|copy| !copies.contains_key(*copy)).count();
         if left == 0 {
             lines = report::lines(&results);
-            finish(&folder, &results, &copies, program)?;
+            finish(&job.folder, &results, &copies, program)?;
         }
     }
     let seconds = began.elapsed().as_secs_f64();
-    if let Some(Json::Object(session)) =
-        manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|sessions| sessions.last_mut())
-    {
-        session.insert("seconds".into(), json!(seconds));
-        session.insert("candidates".into(), json!(candidates));
-    }
-    manifest["status"] = json!(if left == 0 { "complete" } else { "stopped" });
-    folder.write_manifest(&manifest)?;
+    job.note(&[("seconds", json!(seconds)), ("candidates", json!(candidates))]);
+    job.end(left == 0)?;
     Ok(Done { folder: path, left, candidates, seconds, lines })
 }
 

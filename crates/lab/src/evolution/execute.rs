@@ -11,6 +11,7 @@ use super::variants::Variants;
 use super::{report, tables};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
+use crate::store::job::{Job, Kind};
 use crate::store::log::Log;
 use crate::store::texts::Texts;
 use core::ops::{ControlFlow, Range};
@@ -106,29 +107,18 @@ pub struct Outcome {
 }
 
 /// What the folder of an evolution holds, and what may be added to it.
-const WHAT: (&str, &str) = ("evolution", "runs and generations");
-
-/// Where the evolution in a folder differs from this one, apart from runs and generations that were added.
-fn differences(variants: &Variants, manifest: &Json) -> Vec<String> {
-    if manifest.get("kind").and_then(Json::as_str) != Some("evolution") {
-        return vec!["it holds no evolution".to_owned()];
-    }
-    folder::differences(manifest.get("identity").unwrap_or(&Json::Null), &variants.identity())
-}
+const KIND: Kind = Kind { name: "evolution", one: "an evolution", may_grow: "runs and generations" };
 
 /// Reads the evolution of a folder again.
 ///
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
 pub fn of_folder(path: &Path) -> Result<Variants, StoreError> {
-    let damaged = |what: String| StoreError::Damaged(format!("`{}`: {what}", path.display()));
-    let manifest = folder::manifest(path)?
-        .filter(|manifest| manifest.get("kind").and_then(Json::as_str) == Some("evolution"))
-        .ok_or_else(|| StoreError::Refused(format!("`{}` is not the folder of an evolution", path.display())))?;
-    let texts = Texts::of(&manifest).ok_or_else(|| damaged("the manifest lacks what it should hold".to_owned()))?;
-    let (name, first) = texts.file();
-    super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
-        .map_err(|problems| damaged(problems.to_string()))
+    KIND.read(path, |texts| {
+        let (name, first) = texts.file();
+        super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
+            .map_err(|problems| problems.to_string())
+    })
 }
 
 /// Runs what is missing of an evolution.
@@ -144,26 +134,15 @@ pub fn run(
 ) -> Result<Outcome, StoreError> {
     let plan = variants.first();
     let stem = plan.sources.stem(0).unwrap_or("evolution");
-    let path = folder::place(out, stem, WHAT, &|manifest| differences(variants, manifest))?;
-    let folder = Folder::claim(&path)?;
-    // another process may have had the folder in the meantime
-    let before = folder::manifest(&path)?;
-    if let Some(manifest) = &before {
-        let lines = differences(variants, manifest);
-        if !lines.is_empty() {
-            return Err(folder::other(&path, WHAT, lines));
-        }
-    }
-    let mut manifest = before.unwrap_or_else(|| json!({ "format": 1, "kind": "evolution", "sessions": [] }));
-    manifest["title"] = json!(plan.form.title);
-    manifest["files"] = Texts::json(&plan.sources, &plan.sets, plan.quick);
-    manifest["identity"] = variants.identity();
-    manifest["status"] = json!("running");
-    if let Some(Json::Array(sessions)) = manifest.get_mut("sessions") {
-        sessions.push(crate::run::session(program, threads));
-    }
-    folder.write_manifest(&manifest)?;
-    let mut history = opened(&folder, variants)?;
+    let differences = |manifest: &Json| KIND.differences(manifest, &variants.identity());
+    let path = folder::place(out, stem, (KIND.name, KIND.may_grow), &differences)?;
+    let about = [
+        ("title", json!(plan.form.title)),
+        ("files", Texts::json(&plan.sources, &plan.sets, plan.quick)),
+        ("identity", variants.identity()),
+    ];
+    let mut job = Job::begin(KIND, &path, &about, &differences, (program, threads))?;
+    let mut history = opened(&job.folder, variants)?;
     let there: usize = history.runs.iter().map(|run| run.generations.len()).sum();
     watch.begin(&path, variants.generations() - there, there, threads);
     let began = std::time::Instant::now();
@@ -182,25 +161,14 @@ pub fn run(
         _ => Ok(None),
     };
     let seconds = began.elapsed().as_secs_f64();
-    manifest["status"] = json!(if matches!(contests, Ok(Some(_))) { "complete" } else { "stopped" });
-    let ((generations, updates), contests) = match done.and_then(|done| Ok((done, contests?))) {
-        Ok(done) => done,
-        Err(error) => {
-            // the first error is the one to tell
-            let _ = folder.write_manifest(&manifest);
-            return Err(error);
-        }
-    };
-    if let Some(Json::Object(session)) =
-        manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|sessions| sessions.last_mut())
-    {
-        session.insert("seconds".into(), json!(seconds));
-        session.insert("generations".into(), json!(generations));
-    }
+    let complete = matches!(contests, Ok(Some(_)));
+    let done = done.and_then(|done| Ok((done, contests?)));
+    let ((generations, updates), contests) = done.map_err(|error| job.fail(error))?;
+    job.note(&[("seconds", json!(seconds)), ("generations", json!(generations))]);
     if let Some(contests) = &contests {
-        finish(&folder, variants, &history.runs, contests, program)?;
+        finish(&job.folder, variants, &history.runs, contests, program)?;
     }
-    folder.write_manifest(&manifest)?;
+    job.end(complete)?;
     let score = |(k, run): (usize, &Run)| {
         let (variant, own) = variants.of_run(k);
         let name = format!("run {}", own + 1);

@@ -11,6 +11,7 @@ use crate::environment::trial;
 use crate::environment::work::{Watch, packed, spread, unpacked};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
+use crate::store::job::{Job, Kind};
 use crate::store::log::Log;
 use crate::store::texts::Texts;
 use measure::statistics::Decision;
@@ -33,7 +34,7 @@ const CONTROL: u64 = u64::MAX;
 /// Kind of child seeds: trials without a construct.
 const BARE: u32 = 7;
 
-const WHAT: (&str, &str) = ("map", "measures and statements");
+const KIND: Kind = Kind { name: "map", one: "a map", may_grow: "measures and statements" };
 
 /// Results by panel and evaluation.
 type There = BTreeMap<(u64, u64), CellResult>;
@@ -53,26 +54,16 @@ pub struct Done {
     pub lines: Vec<String>,
 }
 
-fn differences(plan: &Plan, manifest: &Json) -> Vec<String> {
-    if manifest.get("kind").and_then(Json::as_str) != Some("map") {
-        return vec!["it holds no map".to_owned()];
-    }
-    folder::differences(manifest.get("identity").unwrap_or(&Json::Null), &plan.identity())
-}
-
 /// Reads the map of a folder again.
 ///
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
 pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
-    let damaged = |what: String| StoreError::Damaged(format!("`{}`: {what}", path.display()));
-    let manifest = folder::manifest(path)?
-        .filter(|manifest| manifest.get("kind").and_then(Json::as_str) == Some("map"))
-        .ok_or_else(|| StoreError::Refused(format!("`{}` is not the folder of a map", path.display())))?;
-    let texts = Texts::of(&manifest).ok_or_else(|| damaged("the manifest lacks what it should hold".to_owned()))?;
-    let (name, first) = texts.file();
-    super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
-        .map_err(|problems| damaged(problems.to_string()))
+    KIND.read(path, |texts| {
+        let (name, first) = texts.file();
+        super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
+            .map_err(|problems| problems.to_string())
+    })
 }
 
 /// Runs what is missing of a map.
@@ -87,45 +78,28 @@ pub fn run(
     watch: &mut dyn Watch,
 ) -> Result<Done, StoreError> {
     let stem = plan.sources.stem(0).unwrap_or("map");
-    let path = folder::place(out, stem, WHAT, &|manifest| differences(plan, manifest))?;
-    let folder = Folder::claim(&path)?;
-    // another process may have had the folder in the meantime
-    let before = folder::manifest(&path)?;
-    if let Some(manifest) = &before {
-        let lines = differences(plan, manifest);
-        if !lines.is_empty() {
-            return Err(folder::other(&path, WHAT, lines));
-        }
-    }
-    let mut manifest = before.unwrap_or_else(|| json!({ "format": 1, "kind": "map", "sessions": [] }));
-    manifest["title"] = json!(plan.form.title);
-    manifest["files"] = Texts::json(&plan.sources, &plan.sets, plan.quick);
-    manifest["identity"] = plan.identity();
-    manifest["status"] = json!("running");
-    if let Some(Json::Array(sessions)) = manifest.get_mut("sessions") {
-        sessions.push(crate::run::session(program, threads));
-    }
-    folder.write_manifest(&manifest)?;
-    let (mut log, mut there) = opened(&folder)?;
+    let differences = |manifest: &Json| KIND.differences(manifest, &plan.identity());
+    let path = folder::place(out, stem, (KIND.name, KIND.may_grow), &differences)?;
+    let about = [
+        ("title", json!(plan.form.title)),
+        ("files", Texts::json(&plan.sources, &plan.sets, plan.quick)),
+        ("identity", plan.identity()),
+    ];
+    let mut job = Job::begin(KIND, &path, &about, &differences, (program, threads))?;
+    let (mut log, mut there) = opened(&job.folder)?;
     let before = there.len();
     watch.begin(&path, "evaluations", 0, before, threads);
     let began = std::time::Instant::now();
     let found = evaluate(plan, threads, &mut there, &mut log, watch);
     let seconds = began.elapsed().as_secs_f64();
     let evaluations = there.len() - before;
-    manifest["status"] = json!(if matches!(found, Ok(Some(_))) { "complete" } else { "stopped" });
-    if let Some(Json::Object(session)) =
-        manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|sessions| sessions.last_mut())
-    {
-        session.insert("seconds".into(), json!(seconds));
-        session.insert("evaluations".into(), json!(evaluations));
-    }
-    folder.write_manifest(&manifest)?;
+    job.note(&[("seconds", json!(seconds)), ("evaluations", json!(evaluations))]);
+    job.end(matches!(found, Ok(Some(_))))?;
     let Some(found) = found? else {
         return Ok(Done { folder: path, complete: false, evaluations, seconds, lines: Vec::new() });
     };
     let lines = report::lines(&found);
-    finish(&folder, &found, program)?;
+    finish(&job.folder, &found, program)?;
     Ok(Done { folder: path, complete: true, evaluations, seconds, lines })
 }
 

@@ -2,6 +2,7 @@
 
 pub mod export;
 pub mod folder;
+pub mod job;
 pub mod log;
 pub mod table;
 pub mod texts;

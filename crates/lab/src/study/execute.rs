@@ -9,6 +9,7 @@ use super::plan::{self, Plan};
 use super::{report, tables, trial};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
+use crate::store::job::{Job, Kind};
 use crate::store::log::Log;
 use crate::store::texts::Texts;
 use serde_json::{Value as Json, json};
@@ -109,7 +110,7 @@ pub struct Outcome {
 }
 
 /// What the folder of a study holds, and what may be added to it.
-const WHAT: (&str, &str) = ("study", "cells and trials");
+const KIND: Kind = Kind { name: "study", one: "a study", may_grow: "cells and trials" };
 
 /// The folder of a study: the one asked for, or one below `runs` that is free or holds the same study.
 fn place(plan: &Plan, selection: &Selection, out: Option<&Path>) -> Result<PathBuf, StoreError> {
@@ -118,17 +119,17 @@ fn place(plan: &Plan, selection: &Selection, out: Option<&Path>) -> Result<PathB
         Some((i, n)) => format!("{stem}-shard-{i}-of-{n}"),
         None => stem.to_owned(),
     };
-    folder::place(out, &stem, WHAT, &|manifest| differences(plan, manifest))
+    folder::place(out, &stem, (KIND.name, KIND.may_grow), &|manifest| differences(plan, manifest))
 }
 
 fn refused(path: &Path, lines: Vec<String>) -> StoreError {
-    folder::other(path, WHAT, lines)
+    folder::other(path, (KIND.name, KIND.may_grow), lines)
 }
 
 /// Where the study in a folder differs from this one, apart from cells and trials that were added.
 fn differences(plan: &Plan, manifest: &Json) -> Vec<String> {
-    if manifest.get("kind").and_then(Json::as_str) != Some("study") {
-        return vec!["it holds no study".to_owned()];
+    if let Some(lines) = KIND.foreign(manifest) {
+        return lines;
     }
     if manifest.get("files") == Some(&files(plan)) {
         return Vec::new();
@@ -192,24 +193,9 @@ pub fn run(
     watch: &mut dyn Watch,
 ) -> Result<Outcome, StoreError> {
     let path = place(plan, selection, out)?;
-    let folder = Folder::claim(&path)?;
-    // another process may have had the folder in the meantime
-    let before = folder::manifest(&path)?;
-    if let Some(manifest) = &before {
-        let lines = differences(plan, manifest);
-        if !lines.is_empty() {
-            return Err(refused(&path, lines));
-        }
-    }
-    let mut manifest = before.unwrap_or_else(|| json!({ "format": 1, "kind": "study", "sessions": [] }));
-    manifest["title"] = json!(plan.title);
-    manifest["files"] = files(plan);
-    manifest["status"] = json!("running");
-    if let Some(Json::Array(sessions)) = manifest.get_mut("sessions") {
-        sessions.push(crate::run::session(program, threads));
-    }
-    folder.write_manifest(&manifest)?;
-    let (mut log, mut results) = opened(&folder, plan)?;
+    let about = [("title", json!(plan.title)), ("files", files(plan))];
+    let mut job = Job::begin(KIND, &path, &about, &|manifest| differences(plan, manifest), (program, threads))?;
+    let (mut log, mut results) = opened(&job.folder, plan)?;
     let there: usize = results.iter().map(BTreeMap::len).sum();
     let units: Vec<(usize, usize)> = selection
         .units(plan)
@@ -222,32 +208,21 @@ pub fn run(
     let session = Session { plan, units: &units, threads };
     let done = session.work(&mut log, &mut results, watch);
     let seconds = began.elapsed().as_secs_f64();
-    let (trials, made) = match done {
-        Ok(done) => done,
-        Err(error) => {
-            manifest["status"] = json!("stopped");
-            // the first error is the one to tell
-            let _ = folder.write_manifest(&manifest);
-            return Err(error);
-        }
-    };
-    if let Some(Json::Object(session)) =
-        manifest.get_mut("sessions").and_then(Json::as_array_mut).and_then(|s| s.last_mut())
-    {
-        session.insert("seconds".into(), json!(seconds));
-        session.insert("trials".into(), json!(trials));
-        session.insert("agent_updates_per_second".into(), json!(made as f64 / seconds.max(1e-9)));
-    }
+    let (trials, made) = done.map_err(|error| job.fail(error))?;
+    job.note(&[
+        ("seconds", json!(seconds)),
+        ("trials", json!(trials)),
+        ("agent_updates_per_second", json!(made as f64 / seconds.max(1e-9))),
+    ]);
     let left = units.len() - trials;
     let whole = Selection::default().units(plan).iter().all(|(c, trial)| results[*c].contains_key(trial));
-    manifest["status"] = json!(if whole { "complete" } else { "stopped" });
     let outcome = |end, judgements| Outcome { folder: path.clone(), end, trials, updates: made, seconds, judgements };
     if left > 0 {
-        folder.write_manifest(&manifest)?;
+        job.end(whole)?;
         return Ok(outcome(End::Stopped(left), Vec::new()));
     }
-    let judgements = finish(&folder, plan, &results, program)?;
-    folder.write_manifest(&manifest)?;
+    let judgements = finish(&job.folder, plan, &results, program)?;
+    job.end(whole)?;
     Ok(outcome(End::Complete, judgements))
 }
 
