@@ -8,6 +8,7 @@ pub mod file;
 pub mod gallery;
 pub mod live;
 pub mod map;
+pub mod optimisation;
 pub mod report;
 pub mod run;
 pub mod scenario;

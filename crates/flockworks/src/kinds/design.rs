@@ -1,9 +1,9 @@
 //! `kind = "design"`: environments that are generated, filtered, and tried on groups.
 
-use super::progress::Progress;
+use super::progress::{self, End, Progress};
 use super::{Input, Kind, shown};
 use crate::fault::{Fault, wrong};
-use crate::run::{self, INTERRUPTED, PROGRAM, RunOptions, text_of};
+use crate::run::{self, PROGRAM, RunOptions, text_of};
 use crate::view::ViewOptions;
 use lab::design::execute::{self, REPORT};
 use lab::design::export::{self, ENVIRONMENTS};
@@ -87,31 +87,21 @@ impl Kind for Design {
         ))
     }
     fn run(&self, mut input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
-        if let Some(option) = options.study.given() {
-            return wrong(format!("`{}` is a design, and {option} is for studies", input.name));
-        }
-        if let Some(seed) = options.seed {
-            input.sets.push(format!("seed={seed}"));
-        }
+        let threads = progress::begin(&mut input, options, "a design")?;
         let plan = read(&input, options.quick)?;
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
         run::listen()?;
         let mut progress = Progress::new();
-        let threads = options.threads.unwrap_or(cores);
         let done = execute::run(&plan, threads, options.out.as_deref(), PROGRAM, &mut progress);
         progress.clear();
         let done = done?;
-        if done.left > 0 {
-            writeln!(out, "stopped, {} candidates are left; the same command continues it", done.left)?;
-            return Ok(INTERRUPTED);
-        }
-        writeln!(out, "{}", plan.form.title)?;
-        for line in &done.lines {
-            writeln!(out, "  {line}")?;
-        }
-        writeln!(out, "{} candidates in {:.1} s", done.candidates, done.seconds)?;
-        told(&done.folder, out)?;
-        Ok(0)
+        let end = End {
+            stopped: (done.left > 0).then(|| format!("stopped, {} candidates are left", done.left)),
+            made: format!("{} candidates", done.candidates),
+            title: &plan.form.title,
+            lines: &done.lines,
+            seconds: done.seconds,
+        };
+        end.tell(out, |out| told(&done.folder, out))
     }
     fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
         // the first feasible environment with the first group: others are files of their own in the folder
@@ -121,7 +111,8 @@ impl Kind for Design {
             (Some((attempt, construct)), Some(population)) => {
                 let title = format!("{}: candidate {attempt}", plan.form.title);
                 let seed = plan.seed_of(*attempt, 1);
-                Ok((input.name.clone(), export::scenario(&plan, population, construct, seed, &title)))
+                let environment = export::environment(&plan, construct);
+                Ok((input.name.clone(), export::scenario(population, environment.geometry(), seed, &title)))
             }
             _ => wrong(format!("`{}` has no feasible environment among the first", input.name)),
         }

@@ -1,9 +1,9 @@
 //! `kind = "map"`: which parameters of a schema make a group do what is wanted.
 
-use super::progress::Progress;
+use super::progress::{self, End, Progress};
 use super::{Input, Kind, shown};
-use crate::fault::{Fault, wrong};
-use crate::run::{self, INTERRUPTED, PROGRAM, RunOptions, text_of};
+use crate::fault::Fault;
+use crate::run::{self, PROGRAM, RunOptions, text_of};
 use lab::map::execute::{self, REPORT};
 use lab::map::form::Map as Form;
 use lab::map::tables::{LEAVES, MEASURES};
@@ -53,31 +53,21 @@ impl Kind for Map {
         ))
     }
     fn run(&self, mut input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
-        if let Some(option) = options.study.given() {
-            return wrong(format!("`{}` is a map, and {option} is for studies", input.name));
-        }
-        if let Some(seed) = options.seed {
-            input.sets.push(format!("seed={seed}"));
-        }
+        let threads = progress::begin(&mut input, options, "a map")?;
         let plan = read(&input, options.quick)?;
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
         run::listen()?;
         let mut progress = Progress::new();
-        let threads = options.threads.unwrap_or(cores);
         let done = execute::run(&plan, threads, options.out.as_deref(), PROGRAM, &mut progress);
         progress.clear();
         let done = done?;
-        if !done.complete {
-            writeln!(out, "stopped after {} evaluations; the same command continues it", done.evaluations)?;
-            return Ok(INTERRUPTED);
-        }
-        writeln!(out, "{}", plan.form.title)?;
-        for line in &done.lines {
-            writeln!(out, "  {line}")?;
-        }
-        writeln!(out, "{} evaluations in {:.1} s", done.evaluations, done.seconds)?;
-        told(&done.folder, out)?;
-        Ok(0)
+        let end = End {
+            stopped: (!done.complete).then(|| format!("stopped after {} evaluations", done.evaluations)),
+            made: format!("{} evaluations", done.evaluations),
+            title: &plan.form.title,
+            lines: &done.lines,
+            seconds: done.seconds,
+        };
+        end.tell(out, |out| told(&done.folder, out))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         execute::of_folder(folder)?;

@@ -4,6 +4,7 @@
 mod design;
 mod evolution;
 mod map;
+mod optimisation;
 mod progress;
 mod scenario;
 pub mod study;
@@ -22,7 +23,7 @@ use std::path::Path;
 
 /// Every kind, in the order in which they are named.
 pub const LIST: &[&dyn Kind] =
-    &[&scenario::Scenario, &study::Study, &evolution::Evolution, &design::Design, &map::Map, &tracks::Tracks];
+    &[&scenario::Scenario, &study::Study, &evolution::Evolution, &design::Design, &map::Map, &optimisation::Optimisation, &tracks::Tracks];
 
 /// A file that was named on the command line.
 #[derive(Clone, Debug)]

@@ -1,11 +1,51 @@
-//! The progress of units of work: a bar on a terminal, quiet lines elsewhere.
+//! What kinds have in common whose units of work are spread over threads: how a run begins, its progress (a bar on a terminal,
+//! quiet lines elsewhere), and how it ends.
 
-use crate::run::{self, QUIET, rate};
+use super::Input;
+use crate::fault::{Fault, wrong};
+use crate::run::{self, INTERRUPTED, QUIET, RunOptions, rate};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lab::environment::work::Watch;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
+
+/// Options of a run of `one` ("a map"): those of studies are refused, a seed is put over the file. The answer is the number of
+/// threads.
+pub(super) fn begin(input: &mut Input, options: &RunOptions, one: &str) -> Result<usize, Fault> {
+    if let Some(option) = options.study.given() {
+        return wrong(format!("`{}` is {one}, and {option} is for studies", input.name));
+    }
+    if let Some(seed) = options.seed {
+        input.sets.push(format!("seed={seed}"));
+    }
+    Ok(options.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from)))
+}
+
+/// What became of a run, and its exit code: where it was stopped, what is said of that; else what was `made`, with its lines.
+pub(super) struct End<'a> {
+    pub(super) stopped: Option<String>,
+    pub(super) title: &'a str,
+    pub(super) lines: &'a [String],
+    pub(super) made: String,
+    pub(super) seconds: f64,
+}
+
+impl End<'_> {
+    pub(super) fn tell(&self, out: &mut dyn Write, told: impl FnOnce(&mut dyn Write) -> Result<(), Fault>) -> Result<u8, Fault> {
+        if let Some(stopped) = &self.stopped {
+            writeln!(out, "{stopped}; the same command continues it")?;
+            return Ok(INTERRUPTED);
+        }
+        writeln!(out, "{}", self.title)?;
+        for line in self.lines {
+            writeln!(out, "  {line}")?;
+        }
+        writeln!(out, "{} in {:.1} s", self.made, self.seconds)?;
+        told(out)?;
+        Ok(0)
+    }
+}
 
 /// What is told while units are worked on.
 pub(super) struct Progress {

@@ -9,7 +9,7 @@ use crate::store::StoreError;
 use crate::store::folder::{Folder, whole_file};
 use std::io::Write;
 use terrain::text::{geojson, svg};
-use terrain::{Construct, Environment};
+use terrain::{Construct, Environment, Geometry};
 
 /// The folder of exported environments, inside that of the design.
 pub const ENVIRONMENTS: &str = "environments";
@@ -30,7 +30,12 @@ pub fn environment(plan: &Plan, construct: &Construct) -> Environment {
 }
 
 /// The scenario of a trial: run with its seed it is that trial, bit by bit.
-pub fn scenario(plan: &Plan, population: &Population, construct: &Construct, seed: u64, title: &str) -> String {
+pub fn scenario<'a>(
+    population: &Population,
+    geometry: impl IntoIterator<Item = &'a Geometry>,
+    seed: u64,
+    title: &str,
+) -> String {
     let mut tree = population.tree.clone();
     let span = tree.span.clone();
     let mut put = |key: &str, value: Tree| {
@@ -39,11 +44,37 @@ pub fn scenario(plan: &Plan, population: &Population, construct: &Construct, see
     };
     put("title", title.into());
     put("seed", seed.write());
-    let geometry = plan.workspace.workspace.geometry.iter().chain(construct.geometry());
     let mut all = population.scenario.obstacle.clone();
     all.extend(obstacles(geometry));
     put("obstacle", all.write());
     toml(&tree)
+}
+
+/// Writes an environment as SVG, GeoJSON, and a scenario that is a trial in it.
+///
+/// # Errors
+/// Where the system refuses.
+pub fn environment_files(
+    folder: &Folder,
+    stem: &str,
+    environment: &Environment,
+    population: &Population,
+    seed: u64,
+    title: &str,
+) -> Result<(), StoreError> {
+    let below = folder.file(ENVIRONMENTS);
+    std::fs::create_dir_all(&below).map_err(|error| StoreError::io("make the folder", &below, error))?;
+    for (ending, text) in [
+        ("svg", svg::write(environment)),
+        ("geojson", geojson::write(environment)),
+        ("toml", scenario(population, environment.geometry(), seed, title)),
+    ] {
+        let path = below.join(format!("{stem}.{ending}"));
+        whole_file(&path, |out| {
+            out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error))
+        })?;
+    }
+    Ok(())
 }
 
 /// Writes the best environments of each group and behaviour.
@@ -55,8 +86,6 @@ pub fn write(folder: &Folder, results: &Results<'_>) -> Result<(), StoreError> {
     if plan.form.export == 0 {
         return Ok(());
     }
-    let below = folder.file(ENVIRONMENTS);
-    std::fs::create_dir_all(&below).map_err(|error| StoreError::io("make the folder", &below, error))?;
     for (behaviour, name) in plan.behaviour_names().into_iter().enumerate() {
         for (group, population) in plan.populations.iter().enumerate() {
             for (attempt, share) in best(results, group, behaviour, plan.form.export) {
@@ -75,17 +104,8 @@ pub fn write(folder: &Folder, results: &Results<'_>) -> Result<(), StoreError> {
                     "{name}, {}: candidate {attempt}, {} of {}",
                     population.name, share.successes, share.trials
                 );
-                let environment = environment(plan, construct);
-                for (ending, text) in [
-                    ("svg", svg::write(&environment)),
-                    ("geojson", geojson::write(&environment)),
-                    ("toml", scenario(plan, population, construct, plan.seed_of(attempt, trial), &title)),
-                ] {
-                    let path = below.join(format!("{stem}.{ending}"));
-                    whole_file(&path, |out| {
-                        out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error))
-                    })?;
-                }
+                let seed = plan.seed_of(attempt, trial);
+                environment_files(folder, &stem, &environment(plan, construct), population, seed, &title)?;
             }
         }
     }

@@ -8,6 +8,7 @@ use crate::environment::workspace::Workspace;
 use crate::file::{Anything, Named};
 use crate::study::form::{Claim, empty};
 use crate::{form, tagged, words};
+use terrain::perturb::Perturbation;
 
 words! {
     /// What kind of file it is.
@@ -67,6 +68,19 @@ words! {
         Shorten = "shorten",
         /// So many pieces are missing.
         Remove = "remove",
+    }
+}
+
+impl ByWord {
+    /// The change.
+    pub fn perturbation(self) -> Perturbation {
+        match self {
+            Self::Joints => Perturbation::Joints,
+            Self::Shift => Perturbation::Shift,
+            Self::Turn => Perturbation::Turn,
+            Self::Shorten => Perturbation::Shorten,
+            Self::Remove => Perturbation::Remove,
+        }
     }
 }
 

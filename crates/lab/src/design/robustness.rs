@@ -13,7 +13,6 @@ use crate::store::table::{Heading, Kind, Values, write_table};
 use space::random::child_seed;
 use std::collections::BTreeMap;
 use terrain::Draws;
-use terrain::perturb::Perturbation;
 
 /// A row for each perturbation and size.
 pub const ROBUSTNESS: &str = "robustness.parquet";
@@ -62,16 +61,9 @@ pub fn tried(results: &Results<'_>, copy: &Changed, stop: &dyn Fn() -> bool) -> 
     let (group, behaviour) = asked(plan, form);
     let of = &form.perturbation[perturbation as usize];
     let Some((_, construct)) = results.survey.feasible.iter().find(|(own, _)| *own == attempt) else { return Ok(None) };
-    let by = match of.by {
-        ByWord::Joints => Perturbation::Joints,
-        ByWord::Shift => Perturbation::Shift,
-        ByWord::Turn => Perturbation::Turn,
-        ByWord::Shorten => Perturbation::Shorten,
-        ByWord::Remove => Perturbation::Remove,
-    };
     // the same draws for every size: what is shown is the size alone
     let seed = child_seed(plan.seed_of(attempt, 0), COPY, number, perturbation as u32) >> 1;
-    let changed = by.apply(construct, of.sizes[size as usize], &Draws::new(seed, 0, 0));
+    let changed = of.by.perturbation().apply(construct, of.sizes[size as usize], &Draws::new(seed, 0, 0));
     let population = &plan.populations[group];
     let geometry = plan.workspace.workspace.geometry.iter().chain(changed.geometry());
     let scenario = population.among(geometry);

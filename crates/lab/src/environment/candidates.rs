@@ -2,10 +2,12 @@
 
 use super::grammar::GrammarSource;
 use super::workspace::{Picture, Units, drawn};
-use crate::file::{Desk, Named, Node};
+use crate::file::{Desk, Named, Node, Span};
 use crate::{form, tagged, words};
+use search::Axis;
 use space::spelling::nearest;
 use terrain::generate::{Candidates as Propose, Enumeration, odometer};
+use terrain::schema::Domain as Values;
 use terrain::{Construct, Grammar, Placement, Schema, TerrainError, Workspace, primitives, schemas};
 
 form! {
@@ -146,6 +148,32 @@ impl Propose for Source {
         }
         Ok(made)
     }
+}
+
+/// A parameter of a schema as an axis: its place, its ends (those of its domain where they are left out), its unit. What is
+/// wrong goes to the desk.
+pub fn axis_of(
+    schema: &dyn Schema,
+    name: &str,
+    (low, high): (Option<f64>, Option<f64>),
+    place: &Span,
+    desk: &mut Desk,
+) -> Option<(usize, Axis, String)> {
+    let card = schema.card();
+    let Some(k) = card.parameters.iter().position(|parameter| parameter.name == name) else {
+        let near = nearest(name, card.parameters.iter().map(|parameter| &*parameter.name));
+        let help = near.map_or_else(String::new, |near| format!("did you mean `{near}`?"));
+        desk.problem(place, format!("`{}` has no parameter `{name}`", card.id), "not a parameter", help);
+        return None;
+    };
+    let parameter = &card.parameters[k];
+    let (least, most) = parameter.domain.bounds();
+    let (low, high) = (low.unwrap_or(least), high.unwrap_or(most));
+    let mut axis = Axis::new(low, high);
+    // half of the whole circle is no circle
+    axis.periodic = matches!(parameter.domain, Values::Periodic(..)) && (low, high) == (least, most);
+    let unit = if parameter.unit == "1" { String::new() } else { parameter.unit.to_owned() };
+    Some((k, axis, unit))
 }
 
 /// The schema of an id; what is wrong goes to the desk.

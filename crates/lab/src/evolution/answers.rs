@@ -233,7 +233,7 @@ fn ends(values: &[f64]) -> (f64, f64) {
 /// Mean fitness of the parents less that of all, the mean over the generations that were bred from.
 fn differential(plan: &Plan, seed: u64, generations: &[Generation]) -> f64 {
     let Search::Genetic(genetic) = &plan.form.search else { return f64::NAN };
-    let operators = plan.operators(genetic);
+    let operators = genetic.operators();
     let of = |(number, one): (usize, &Generation)| {
         let scores = plan.own(&one.evaluated.scores);
         let parents = operators.parents(scores, seed, number as u64);

@@ -403,7 +403,7 @@ impl Searching {
             Search::Genetic(form) => {
                 // the candidates of the group, or of its rival, which stand behind them
                 let genetic = |seed: u64, part: Range<usize>| {
-                    let operators = plan.operators(form);
+                    let operators = form.operators();
                     let Some(last) = there.last() else {
                         return Genetic::new(domain.clone(), operators, seed, 0, plan.first(form, seed)?);
                     };

@@ -1,8 +1,11 @@
 //! The forms of an evolution file: which values are searched over, for what, and how.
 
-use crate::file::{Anything, Named};
+use crate::file::{Anything, Desk, Named, Node};
 use crate::study::form::{Claim, Figure, Reading, Test, Window, empty};
 use crate::{form, tagged, words};
+use search::genetic::Operators;
+use search::{crossover, mutation, selection};
+use space::spelling::nearest;
 
 words! {
     /// What kind of file it is.
@@ -80,6 +83,45 @@ form! {
         elite: usize = [0usize], "1", NonNegative;
         /// Who begins.
         start: Start = [Start::Random], "", Any;
+    }
+}
+
+impl Genetic {
+    /// Its operators.
+    pub fn operators(&self) -> Operators {
+        let selection: Box<dyn selection::Selection> = match self.selection.as_str() {
+            "tournament" => Box::new(selection::tournament::Tournament { size: self.tournament_size }),
+            other => selection::find(other).unwrap_or_else(|| Box::new(selection::rank::Rank)),
+        };
+        let mutation: Box<dyn mutation::Mutation> = match self.mutation.as_str() {
+            "creep" => Box::new(mutation::creep::Creep { share: self.creep }),
+            other => mutation::find(other).unwrap_or_else(|| Box::new(mutation::reset::Reset)),
+        };
+        Operators {
+            selection,
+            crossover: crossover::find(&self.crossover).unwrap_or_else(|| Box::new(crossover::one_point::OnePoint)),
+            mutation,
+            mutation_rate: self.mutation_rate,
+            elite: self.elite,
+        }
+    }
+    /// Whether its operators are known; what is wrong goes to the desk. It stands at `path`.
+    pub fn check(&self, path: &str, file: &Node, desk: &mut Desk) {
+        let mut known = |list: &[(&str, &str)], given: &str, key: &str| {
+            if list.iter().any(|(id, _)| *id == given) {
+                return;
+            }
+            let help = match nearest(given, list.iter().map(|(id, _)| *id)) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => String::new(),
+            };
+            let ids: Vec<&str> = list.iter().map(|(id, _)| *id).collect();
+            let place = file.place(&format!("{path}.{key}"));
+            desk.problem(&place, format!("no {key} is called `{given}`"), format!("one of {}", ids.join(", ")), help);
+        };
+        known(selection::LIST, &self.selection, "selection");
+        known(crossover::LIST, &self.crossover, "crossover");
+        known(mutation::LIST, &self.mutation, "mutation");
     }
 }
 

@@ -13,8 +13,7 @@ use crate::study::plan::{Files, Load, entry_place, usual_readings, within};
 use crate::study::{self, form::Window};
 use search::elites::{Elites, ElitesOptions};
 use search::evolution_strategy::{EvolutionStrategy, StrategyOptions};
-use search::genetic::Operators;
-use search::{Axis, Domain, crossover, mutation, selection};
+use search::{Axis, Domain};
 use serde_json::{Value as Json, json};
 use space::spelling::nearest;
 use swarm::parameters::{Descriptor, Kind, Range};
@@ -137,24 +136,6 @@ impl Plan {
         (form.figure, form.test, form.claim) = (Vec::new(), Vec::new(), Vec::new());
         form.scenario = None;
         json!({ "evolution": form.write().json(), "scenario": scenario.write().json() })
-    }
-    /// The operators of its genetic algorithm.
-    pub fn operators(&self, genetic: &Genetic) -> Operators {
-        let selection: Box<dyn selection::Selection> = match genetic.selection.as_str() {
-            "tournament" => Box::new(selection::tournament::Tournament { size: genetic.tournament_size }),
-            other => selection::find(other).unwrap_or_else(|| Box::new(selection::rank::Rank)),
-        };
-        let mutation: Box<dyn mutation::Mutation> = match genetic.mutation.as_str() {
-            "creep" => Box::new(mutation::creep::Creep { share: genetic.creep }),
-            other => mutation::find(other).unwrap_or_else(|| Box::new(mutation::reset::Reset)),
-        };
-        Operators {
-            selection,
-            crossover: crossover::find(&genetic.crossover).unwrap_or_else(|| Box::new(crossover::one_point::OnePoint)),
-            mutation,
-            mutation_rate: genetic.mutation_rate,
-            elite: genetic.elite,
-        }
     }
     /// The first candidates of a genetic algorithm.
     pub fn first(&self, genetic: &Genetic, seed: u64) -> Result<Vec<Vec<f64>>, search::SearchError> {
@@ -321,7 +302,9 @@ impl Reader<'_> {
             self.files.desk.problem(&file.place("gene"), "there is nothing to search over", "at least one gene", "");
         }
         let shared = self.shared(&form, &scenario, file);
-        self.operators(&form, file);
+        if let Search::Genetic(genetic) = &form.search {
+            genetic.check("search.genetic", file, &mut self.files.desk);
+        }
         let derive = self.expressions("derive", &form.derive, file);
         let keep = self.expressions("keep", &form.keep, file);
         let follow = self.expressions("follow", &form.follow, file);
@@ -561,28 +544,6 @@ impl Reader<'_> {
         rival
     }
 
-    /// Whether the operators are known.
-    fn operators(&mut self, form: &Evolution, file: &Node) {
-        let desk = &mut self.files.desk;
-        let mut known = |list: &[(&str, &str)], given: &str, key: &str| {
-            if list.iter().any(|(id, _)| *id == given) {
-                return;
-            }
-            let help = match nearest(given, list.iter().map(|(id, _)| *id)) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => String::new(),
-            };
-            let ids: Vec<&str> = list.iter().map(|(id, _)| *id).collect();
-            let place = file.place(&format!("search.genetic.{key}"));
-            desk.problem(&place, format!("no {key} is called `{given}`"), format!("one of {}", ids.join(", ")), help);
-        };
-        if let Search::Genetic(genetic) = &form.search {
-            known(selection::LIST, &genetic.selection, "selection");
-            known(crossover::LIST, &genetic.crossover, "crossover");
-            known(mutation::LIST, &genetic.mutation, "mutation");
-        }
-    }
-
     fn expressions(&mut self, key: &str, given: &Named<String>, file: &Node) -> Vec<(String, Expression)> {
         let mut read = Vec::new();
         for (name, text) in &given.0 {
@@ -613,7 +574,7 @@ impl Reader<'_> {
         let made = plan.domain().and_then(|domain| match &plan.form.search {
             Search::Genetic(genetic) => {
                 let first = plan.first(genetic, 0)?;
-                search::genetic::Genetic::new(domain, plan.operators(genetic), 0, 0, first).map(|_| ())
+                search::genetic::Genetic::new(domain, genetic.operators(), 0, 0, first).map(|_| ())
             }
             Search::CmaEs(form) => EvolutionStrategy::new(domain, plan.strategy(form), 0).map(|_| ()),
             Search::MapElites(form) => {

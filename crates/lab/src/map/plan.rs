@@ -4,7 +4,7 @@ use super::form::{DivisionWord, Map, RuleWord};
 use super::measures::Found;
 use crate::design::plan::{opened, workspace};
 use crate::environment::behaviour::Around;
-use crate::environment::candidates::{schema_of, values_of};
+use crate::environment::candidates::{axis_of, schema_of, values_of};
 use crate::environment::claims;
 use crate::environment::trial::{self, Population, PopulationForm, populations};
 use crate::environment::workspace::Resolved;
@@ -17,8 +17,6 @@ use search::refine::{Cell, Division, Refinement, RefinementPlan, Rule as Refine}
 use search::{Axis, Domain};
 use serde_json::{Value as Json, json};
 use space::random::child_seed;
-use space::spelling::nearest;
-use terrain::schema::Domain as Values;
 use terrain::{Construct, Schema, TerrainError};
 
 /// Kind of child seeds, beside those of designs: a cell.
@@ -231,24 +229,17 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
 }
 
 fn axes(files: &mut Files<'_>, form: &Map, schema: &dyn Schema, tree: &Node) -> Option<Vec<MapAxis>> {
-    let card = schema.card();
     let mut axes = Vec::new();
     for (name, written) in &form.axis.0 {
         let place = tree.place(&format!("axis.{name}"));
-        let Some(k) = card.parameters.iter().position(|parameter| parameter.name == *name) else {
-            let near = nearest(name, card.parameters.iter().map(|parameter| &*parameter.name));
-            let help = near.map_or_else(String::new, |near| format!("did you mean `{near}`?"));
-            files.desk.problem(&place, format!("`{}` has no parameter `{name}`", card.id), "not a parameter", help);
-            continue;
-        };
-        let parameter = &card.parameters[k];
-        let (least, most) = parameter.domain.bounds();
-        let (low, high) = (written.low.unwrap_or(least), written.high.unwrap_or(most));
-        let mut axis = Axis::new(low, high);
-        // half of the whole circle is no circle
-        axis.periodic = matches!(parameter.domain, Values::Periodic(..)) && (low, high) == (least, most);
-        let unit = if parameter.unit == "1" { String::new() } else { parameter.unit.to_owned() };
-        axes.push(MapAxis { name: name.clone(), unit, place: k, axis, cells: written.cells });
+        let found = axis_of(schema, name, (written.low, written.high), &place, &mut files.desk);
+        axes.extend(found.map(|(place, axis, unit)| MapAxis {
+            name: name.clone(),
+            unit,
+            place,
+            axis,
+            cells: written.cells,
+        }));
     }
     if axes.is_empty() && files.desk.problems.is_empty() {
         files.desk.problem(&tree.place("axis"), "there is nothing to map", "at least one [axis.NAME]", "");

@@ -223,6 +223,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
     /// Explains what an agent does in the step that begins at the present state; `None` where there is no such agent.
     /// The world is the same afterwards, to the last bit. It takes as long as a step, and copies the state.
     pub fn explain(&mut self, id: u32) -> Option<Explanation> {
+        (self.compiled.explain)(self, id)
+    }
+    pub(crate) fn explained(&mut self, id: u32) -> Option<Explanation> {
         if id as usize >= self.now.len() {
             return None;
         }

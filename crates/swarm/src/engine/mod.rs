@@ -2,6 +2,7 @@
 
 mod checkpoint;
 mod coarse;
+mod compiled;
 mod contacts;
 pub mod explain;
 mod kernel;
@@ -9,6 +10,7 @@ mod plan;
 mod step;
 mod world;
 
+pub use compiled::Compiled;
 pub use explain::Explanation;
 pub(crate) use kernel::{Kernel, Listed, SideBySide, Stages, Streamed, mask_of, minimal_lanes};
 pub use kernel::{MotionNoise, Sensing};

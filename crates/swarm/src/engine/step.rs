@@ -12,6 +12,9 @@ use space::random::{Purpose, uniform, uniforms};
 impl<R: Scalar, const D: usize> World<R, D> {
     /// Makes one step (one tick, for an asynchronous world).
     pub fn step(&mut self) {
+        (self.compiled.step)(self);
+    }
+    pub(crate) fn make_step(&mut self) {
         match self.driver {
             Driver::Synchronous => self.step_synchronous(),
             Driver::Sequential(order) => self.step_sequential(order),

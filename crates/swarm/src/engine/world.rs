@@ -2,6 +2,7 @@
 
 use crate::detection::readings::ErrorCount;
 use crate::engine::coarse::Coarse;
+use crate::engine::compiled::Compiled;
 use crate::engine::kernel::{Close, Index, Kernel, Scratch, Sensing, Stages, View};
 use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
 use crate::models::{self, Catalogue, Models};
@@ -67,6 +68,7 @@ impl<R: Scalar, const D: usize> Clocks<R, D> {
 
 /// A world that can be stepped.
 pub struct World<R: Scalar, const D: usize> {
+    pub(crate) compiled: Compiled<R, D>,
     pub(crate) space: Space<R, D>,
     pub(crate) obstacles: Obstacles<R, D>,
     pub(crate) resources: Option<Resources<R, D>>,
@@ -145,6 +147,9 @@ where
     /// # Errors
     /// Whatever in the plan cannot be, with the remedy where there is one.
     pub fn new(plan: WorldPlan<R, D>) -> Result<Self, WorldError> {
+        Models::world(plan)
+    }
+    pub(crate) fn build(plan: WorldPlan<R, D>) -> Result<Self, WorldError> {
         check_world(&plan)?;
         let agents: usize = plan.groups.iter().map(|g| g.count).sum();
         if agents > u32::MAX as usize / 8 - PADDING {
@@ -305,6 +310,7 @@ where
             && !(sequential || delayed || plan.space.is_periodic())
             && groups.iter().any(|g| g.kernel.marks());
         let mut world = Self {
+            compiled: Models::engine(),
             space: plan.space,
             obstacles,
             needs_rows: resources.is_some() || body_contacts || identity,
@@ -632,6 +638,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
     }
     /// Mean number of others in any named set, over every `every`-th agent.
     pub fn mean_neighbours(&mut self, every: usize) -> f64 {
+        (self.compiled.mean_neighbours)(self, every)
+    }
+    pub(crate) fn count_neighbours(&mut self, every: usize) -> f64 {
         let mut scratch = match self.scratch.pop() {
             Some(scratch) => scratch,
             None => return 0.0,
@@ -669,6 +678,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
     /// # Errors
     /// When the saved state has another number of agents or columns, or is damaged.
     pub fn restore(&mut self, saved: &Checkpoint<R, D>) -> Result<(), WorldError> {
+        (self.compiled.restore)(self, saved)
+    }
+    pub(crate) fn take_over(&mut self, saved: &Checkpoint<R, D>) -> Result<(), WorldError> {
         if saved.columns.len() != self.now.len() || saved.columns.state.len() != self.declared.len() {
             return Err(WorldError::World(format!(
                 "the saved state has {} agents and {} columns, this world {} and {}",

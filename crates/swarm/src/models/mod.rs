@@ -2,7 +2,7 @@
 //! made from the list.
 
 use crate::card::Card;
-use crate::engine::{Kernel, Listed, SideBySide, Stages, Streamed};
+use crate::engine::{Compiled, Kernel, Listed, SideBySide, Stages, Streamed, World, WorldError, WorldPlan};
 use crate::motion::{Abreast, Law, Model, Needs, Single, Stream, Summed, Variant};
 use crate::parameters::{Descriptor, Kind, Parameter, ParameterError, Parameters, Points, Scalar, Values};
 use crate::physics::Contact;
@@ -207,6 +207,13 @@ pub struct Entry {
 pub trait Catalogue<R: Scalar, const D: usize> {
     /// Prepares a model; `None` where none of this id works in `D` dimensions.
     fn prepare(id: &str, values: &Values, members: usize) -> Option<Result<Prepared<R, D>, ParameterError>>;
+    /// Builds a world from its plan; see [`World::new`].
+    ///
+    /// # Errors
+    /// Whatever in the plan cannot be.
+    fn world(plan: WorldPlan<R, D>) -> Result<World<R, D>, WorldError>;
+    /// The engine of this precision and dimension.
+    fn engine() -> Compiled<R, D>;
 }
 
 /// Implements [`Catalogue`] for each number of dimensions.
@@ -242,6 +249,19 @@ macro_rules! models {
                 })*
                 let _ = (values, members);
                 None
+            }
+            #[inline(never)]
+            fn world(plan: WorldPlan<$real, $dimension>) -> Result<World<$real, $dimension>, WorldError> {
+                World::build(plan)
+            }
+            #[inline(never)]
+            fn engine() -> Compiled<$real, $dimension> {
+                Compiled {
+                    step: |world| world.make_step(),
+                    restore: |world, saved| world.take_over(saved),
+                    explain: |world, id| world.explained(id),
+                    mean_neighbours: |world, every| world.count_neighbours(every),
+                }
             }
         }
     };
