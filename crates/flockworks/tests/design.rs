@@ -1,4 +1,4 @@
-//! Designs and maps through the program itself: templates, threads, stopping and going on, exported environments, mistakes.
+//! Designs, maps and optimisations through the program itself: templates, threads, stopping and going on, exported environments, mistakes.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::path::{Path, PathBuf};
@@ -111,6 +111,38 @@ fn a_map_is_the_same_for_any_threads_and_stops() {
 }
 
 #[test]
+fn an_optimisation_is_the_same_for_any_threads_and_stops_and_beats_no_wall() {
+    let folder = folder("optimisation");
+    std::fs::write(folder.join("best.toml"), done(&folder, &["new", "optimisation"])).unwrap();
+    assert!(done(&folder, &["check", "best.toml"]).contains("dirt over angle, length by uniform, strategy, archive"));
+    let run = |out: &str, more: &[&str]| {
+        let set = ["--set", "confirm_trials=20", "--set", "control_trials=20", "--set", "lighten.trials=10"];
+        done(&folder, &[&["run", "best.toml", "--quick", "--out", out], &set[..], more].concat())
+    };
+    let told = run("one", &["--threads", "1"]);
+    assert!(told.contains("better: holds"), "{told}");
+    let names = ["best.parquet", "evaluations.parquet", "elites.parquet", "report.html"];
+    let one = files(&folder.join("one"), &names);
+    run("three", &["--threads", "3"]);
+    assert!(one == files(&folder.join("three"), &names), "threads change nothing");
+    torn(&folder.join("one"), &folder.join("torn"), "evaluations.log");
+    run("torn", &["--threads", "2"]);
+    assert!(one == files(&folder.join("torn"), &names), "a stop changes nothing");
+    done(&folder, &["report", "one"]);
+    assert!(one == files(&folder.join("one"), &names));
+    // more evaluations may be added; what is there is not done again
+    let more = run("one", &["--set", "quick_evaluations=25"]);
+    let made: usize = more.lines().find_map(|line| line.split_once(" evaluations in")?.0.trim().parse().ok()).unwrap();
+    assert!(made < 200, "{more}");
+    let whole = run("whole", &["--set", "quick_evaluations=25"]);
+    assert!(whole.contains("better: "), "{whole}");
+    assert!(files(&folder.join("one"), &names[..3]) == files(&folder.join("whole"), &names[..3]));
+    // the best is a file that runs
+    done(&folder, &["run", "one/environments/strategy.toml", "--quick", "--out", "again"]);
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
 fn mistakes_are_told_at_their_place_with_what_is_near() {
     let folder = folder("mistakes");
     let (design, map) = (done(&folder, &["new", "design"]), done(&folder, &["new", "map"]));
@@ -140,6 +172,18 @@ fn mistakes_are_told_at_their_place_with_what_is_near() {
         ("inside = { angle = [200, 240]", "inside = { angles = [200, 240]", "did you mean `angle`"),
     ] {
         let text = changed(&map, from, to);
+        assert!(text.contains(told), "{to}: {text}");
+    }
+    let best = done(&folder, &["new", "optimisation"]);
+    for (from, to, told) in [
+        ("[axis.angle]", "[axis.angel]", "did you mean `angle`"),
+        ("low = 170", "low = 300", "the lower first"),
+        ("cma_es = {}", "cma_ex = {}", "did you mean `cma_es`"),
+        ("cma_es = {}", "genetic.selection = \"rang\"", "did you mean `rank`"),
+        ("kind.material", "kind.materials", "did you mean `material`"),
+        ("rate[method = strategy] - control", "rate[method = strategie] - control", "did you mean `strategy`"),
+    ] {
+        let text = changed(&best, from, to);
         assert!(text.contains(told), "{to}: {text}");
     }
     std::fs::remove_dir_all(folder).unwrap();

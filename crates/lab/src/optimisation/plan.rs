@@ -226,12 +226,6 @@ fn methods(files: &mut Files<'_>, form: &Optimisation, axes: &[SearchAxis], tree
             Search::Uniform(_) | Search::CmaEs(_) => {}
         }
     }
-    for (k, axis) in axes.iter().enumerate() {
-        if axis.axis.low >= axis.axis.high {
-            let place = tree.place(&format!("axis.{}", form.axis.0[k].0));
-            desk.problem(&place, format!("`{}` has no width", axis.name), "low below high", "");
-        }
-    }
 }
 
 /// Points looked at for one that gives a construct.
