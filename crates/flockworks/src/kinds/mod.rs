@@ -3,6 +3,7 @@
 
 mod design;
 mod evolution;
+mod formation;
 mod map;
 mod progress;
 mod scenario;
@@ -22,7 +23,15 @@ use std::path::Path;
 
 /// Every kind, in the order in which they are named.
 pub const LIST: &[&dyn Kind] =
-    &[&scenario::Scenario, &study::Study, &evolution::Evolution, &design::Design, &map::Map, &tracks::Tracks];
+    &[
+        &scenario::Scenario,
+        &study::Study,
+        &evolution::Evolution,
+        &design::Design,
+        &map::Map,
+        &formation::Formation,
+        &tracks::Tracks,
+    ];
 
 /// A file that was named on the command line.
 #[derive(Clone, Debug)]
