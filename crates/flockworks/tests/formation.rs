@@ -35,7 +35,9 @@ fn everything(template: &str) -> String {
                    shepherds = { wheels = true, asynchronous = true, noise = true }\n\
                    [solver]\ncandidates = 4\nfirst_trials = 1\nfurther_trials = 1\n\
                    [task.searched]\npath = [[-3, 0], [0, 0]]\n";
-    let text = template.replace("duration = 100", "duration = 20").replace("[method.walls]", &format!("{methods}[method.walls]"));
+    let text = template
+        .replace("duration = 100", "duration = 20")
+        .replace("[method.walls]", &format!("{methods}[method.walls]"));
     assert_ne!(text, template);
     text
 }

@@ -22,16 +22,15 @@ use std::io::{IsTerminal, Write};
 use std::path::Path;
 
 /// Every kind, in the order in which they are named.
-pub const LIST: &[&dyn Kind] =
-    &[
-        &scenario::Scenario,
-        &study::Study,
-        &evolution::Evolution,
-        &design::Design,
-        &map::Map,
-        &formation::Formation,
-        &tracks::Tracks,
-    ];
+pub const LIST: &[&dyn Kind] = &[
+    &scenario::Scenario,
+    &study::Study,
+    &evolution::Evolution,
+    &design::Design,
+    &map::Map,
+    &formation::Formation,
+    &tracks::Tracks,
+];
 
 /// A file that was named on the command line.
 #[derive(Clone, Debug)]

@@ -116,9 +116,10 @@ pub fn run(
         &stop,
         |task, stop| plan.solve(*task, stop),
         |task, solution| {
-            let words = solution.walls.iter().flat_map(|wall| {
-                std::iter::once(wall.leg as u64).chain(wall.at.numbers().map(f64::to_bits))
-            });
+            let words = solution
+                .walls
+                .iter()
+                .flat_map(|wall| std::iter::once(wall.leg as u64).chain(wall.at.numbers().map(f64::to_bits)));
             log.append(SOLVED, &packed(std::iter::once(*task as u64).chain(words)))?;
             watch.done(solution.trials);
             there.walls.insert(*task, solution.walls);
@@ -235,14 +236,6 @@ fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
 
 /// A record: task, method, number of the trial, steps, and what was read.
 fn words((task, method, number): (usize, usize, usize), tried: &Tried) -> Vec<u64> {
-    let read = [
-        tried.fitness,
-        tried.time,
-        tried.path_length,
-        tried.dispersion,
-        tried.held,
-        tried.robots,
-        tried.bumps,
-    ];
+    let read = [tried.fitness, tried.time, tried.path_length, tried.dispersion, tried.held, tried.robots, tried.bumps];
     [task as u64, method as u64, number as u64, tried.steps].into_iter().chain(read.map(f64::to_bits)).collect()
 }

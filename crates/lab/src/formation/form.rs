@@ -58,7 +58,7 @@ form! {
         /// Partial solutions that are kept.
         beam: usize = [2usize], "1", Within(1.0, 100.0);
         /// Walls of a leg, at most.
-        walls_of_leg: usize = [2usize], "1", Within(0.0, 20.0);
+        walls_of_leg: usize = [6usize], "1", Within(0.0, 20.0);
         /// Share of targets that is enough.
         enough: f64 = [0.9], "1", Within(0.0, 1.0);
         /// Shortest wall.
@@ -77,7 +77,7 @@ impl Default for Solver {
             further_trials: 18,
             candidates: 60,
             beam: 2,
-            walls_of_leg: 2,
+            walls_of_leg: 6,
             enough: 0.9,
             shortest: 1.0,
             longest: 3.0,
@@ -109,7 +109,15 @@ form! {
 
 impl Default for Shepherds {
     fn default() -> Self {
-        Self { radius: 0.17, speed: 0.5, wheels: false, period: 0.1, asynchronous: false, noise: false, clearance: 0.35 }
+        Self {
+            radius: 0.17,
+            speed: 0.5,
+            wheels: false,
+            period: 0.1,
+            asynchronous: false,
+            noise: false,
+            clearance: 0.35,
+        }
     }
 }
 

@@ -198,7 +198,12 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
     }
     for (key, empty) in [("task", form.task.0.is_empty()), ("method", form.method.0.is_empty())] {
         if empty {
-            files.desk.problem(&tree.place(key), format!("there is no {key}"), format!("at least one [{key}.NAME]"), "");
+            files.desk.problem(
+                &tree.place(key),
+                format!("there is no {key}"),
+                format!("at least one [{key}.NAME]"),
+                "",
+            );
         }
     }
     if !files.desk.problems.is_empty() {
@@ -228,7 +233,8 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
     }
     let mut show = Vec::new();
     for (k, pair) in form.show.iter().enumerate() {
-        let (task, method) = pair.split_once(',').map_or((pair.as_str(), ""), |(task, method)| (task.trim(), method.trim()));
+        let (task, method) =
+            pair.split_once(',').map_or((pair.as_str(), ""), |(task, method)| (task.trim(), method.trim()));
         let found = place(task, tasks.iter().map(|task| task.name.as_str()), "task")
             .and_then(|task| Ok((task, place(method, methods.iter().map(|method| method.name.as_str()), "method")?)));
         match found {
@@ -255,7 +261,8 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
             for method in plan.methods.iter().filter(|method| method.tasks.contains(&task)) {
                 let given = plan.walls[task].clone().unwrap_or_default();
                 if let Err(wrong) = trial::possible(&plan.arena(task, method, &given), plan.seed_of(task, 1)) {
-                    let what = format!("task `{}` with `{}` cannot begin: {}", plan.tasks[task].name, method.name, wrong.what);
+                    let what =
+                        format!("task `{}` with `{}` cannot begin: {}", plan.tasks[task].name, method.name, wrong.what);
                     let place = tree.place(&format!("task.{}", plan.tasks[task].name));
                     files.desk.problem(&place, what, "not possible", "");
                 }
@@ -294,7 +301,8 @@ fn place<'a>(name: &str, known: impl Iterator<Item = &'a str>, what: &str) -> Re
 fn task(name: &str, form: &TaskForm) -> Result<(Task, Option<Vec<Wall>>), Wrong> {
     let mut path: Vec<Point> = Vec::new();
     for (k, numbers) in form.path.iter().enumerate() {
-        let point = build::vector::<f64, 2>(numbers).map_err(|what| Wrong::new(format!("path.{k}"), what, "2 numbers"))?;
+        let point =
+            build::vector::<f64, 2>(numbers).map_err(|what| Wrong::new(format!("path.{k}"), what, "2 numbers"))?;
         if path.last().is_some_and(|before| *before == point) {
             return Err(Wrong::new(format!("path.{k}"), "it is where the point before it is", "another point"));
         }

@@ -7,7 +7,9 @@ use super::trial;
 use crate::design::report::{add_ways, put};
 use crate::environment::claims;
 use crate::report::of_run::paragraphs;
-use crate::report::{Border, Drawing, Drawings, Fact, Figure, Listing, Outline, Page, Replay, Stage, Stroke, Table, short};
+use crate::report::{
+    Border, Drawing, Drawings, Fact, Figure, Listing, Outline, Page, Replay, Stage, Stroke, Table, short,
+};
 use space::Vector;
 use terrain::Point;
 
@@ -34,9 +36,10 @@ pub fn page(results: &Results<'_>, program: &str) -> Page {
     if !plan.form.claim.is_empty() {
         figures.push(Figure::Listing(Listing {
             title: "Beside what was published".into(),
-            about: "Intervals and verdicts are by drawing the trials again 400 times, with replacement. The results are a \
+            about:
+                "Intervals and verdicts are by drawing the trials again 400 times, with replacement. The results are a \
                     reconstruction with the parameters of this file; equality with the source is not claimed."
-                .into(),
+                    .into(),
             header: claims::header(),
             rows: claims::rows(&plan.form.claim, results, plan.form.seed),
         }));
@@ -112,7 +115,9 @@ fn compared(results: &Results<'_>) -> Listing {
             let means = tasks.iter().map(|&task| of.map_or(f64::NAN, |of| results.mean(task, method, of)));
             row.push(number(super::results::mean(means)));
         }
-        row.push(number(super::results::mean(tasks.iter().map(|&task| results.mean(task, method, |tried| tried.bumps)))));
+        row.push(number(super::results::mean(
+            tasks.iter().map(|&task| results.mean(task, method, |tried| tried.bumps)),
+        )));
         row
     };
     Listing {
@@ -162,7 +167,8 @@ fn methods(plan: &Plan) -> Vec<String> {
 
 fn csv(results: &Results<'_>) -> Table {
     let plan = results.plan;
-    let mut csv = String::from("task,method,trials,targets_done,targets,success,time,path_length,dispersion,held,robots\n");
+    let mut csv =
+        String::from("task,method,trials,targets_done,targets,success,time,path_length,dispersion,held,robots\n");
     for &(task, method) in results.trials.keys() {
         let (done, all) = results.targets(task, method);
         let trials = results.of(task, method).len();

@@ -57,7 +57,8 @@ impl<'a> Results<'a> {
     pub fn targets(&self, task: usize, method: usize) -> (u64, u64) {
         let members = self.plan.methods[method].population.members() as u64;
         let possible = self.of(task, method).iter().filter(|tried| tried.fitness.is_finite());
-        possible.fold((0, 0), |(done, all), tried| (done + (tried.fitness * members as f64).round() as u64, all + members))
+        possible
+            .fold((0, 0), |(done, all), tried| (done + (tried.fitness * members as f64).round() as u64, all + members))
     }
     /// The mean of what is read of trials, where it is a number; not a number where it never is.
     pub fn mean(&self, task: usize, method: usize, of: fn(&Tried) -> f64) -> f64 {
@@ -75,7 +76,9 @@ pub(super) fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
 pub(super) fn reading(name: &str) -> Option<fn(&Tried) -> f64> {
     Some(match name {
         "fitness" | "fitnesses" => |tried| tried.fitness,
-        "success" => |tried| if tried.fitness.is_finite() { f64::from(u8::from(tried.fitness >= 1.0)) } else { f64::NAN },
+        "success" => {
+            |tried| if tried.fitness.is_finite() { f64::from(u8::from(tried.fitness >= 1.0)) } else { f64::NAN }
+        }
         "time" => |tried| tried.time,
         "path_length" => |tried| tried.path_length,
         "dispersion" => |tried| tried.dispersion,

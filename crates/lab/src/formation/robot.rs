@@ -122,7 +122,8 @@ impl Fleet {
         let offset = next - own.at;
         // slower where it would go beyond within a period
         let last = next == goal;
-        let speed = if last { self.form.speed.min(offset.length() / self.form.period.max(0.2)) } else { self.form.speed };
+        let speed =
+            if last { self.form.speed.min(offset.length() / self.form.period.max(0.2)) } else { self.form.speed };
         let wanted = offset.unit() * speed;
         let others = self.robots.iter().enumerate().filter(|(other, _)| *other != k);
         let bodies: Vec<(Point, Point, f64)> = others
@@ -180,9 +181,8 @@ impl Fleet {
             }
         }
         let from = robot.at;
-        let nearer = |place: Point, reach: f64| {
-            (to - place).length() < reach && (to - place).length() < (from - place).length()
-        };
+        let nearer =
+            |place: Point, reach: f64| (to - place).length() < reach && (to - place).length() < (from - place).length();
         let blocked = around.targets.iter().any(|&target| nearer(target, form.radius + around.target_radius))
             || robots.iter().enumerate().any(|(other, own)| other != k && nearer(own.at, 2.0 * form.radius));
         let robot = &mut self.robots[k];

@@ -2,7 +2,8 @@
 //!
 //! Walls are anchored beside the path, on the outer side of a bend among other places (the schema `itb` of the source, of several
 //! walls), one alone or two that mirror each other. For each leg the best of many candidates are kept that bring the targets through the next
-//! gate, those with the least wall first; several partial solutions are followed, so that an early choice can be revised.
+//! gate, those with the least wall first; several partial solutions are followed, so that an early choice can be revised. In the end
+//! walls that are not needed are left out.
 //! Draws are those of `terrain`: the key is the task's seed, attempt = leg and place in the search, step = candidate.
 
 use super::form::Solver;
@@ -18,7 +19,7 @@ const FINALISTS: usize = 4;
 /// Largest angle between a wall and its leg, degrees.
 const LEANING: f64 = 75.0;
 /// Where walls are anchored, in shares of the half width beside the path.
-const BESIDE: [f64; 3] = [0.6, 0.8, 1.0];
+const BESIDE: [f64; 4] = [0.5, 0.6, 0.8, 1.0];
 /// Steps of places along a leg and of lengths.
 const STEP: f64 = 0.5;
 /// Room between a wall and the disc in which targets start.
@@ -72,7 +73,8 @@ impl Problem<'_> {
         for leg in 0..self.task.legs() {
             let mut found: Vec<State> = Vec::new();
             for (place, state) in beam.iter().enumerate() {
-                let Some(share) = self.share(&state.walls, leg, 0, self.solver.further_trials, &mut trials, stop)? else {
+                let Some(share) = self.share(&state.walls, leg, 0, self.solver.further_trials, &mut trials, stop)?
+                else {
                     return Ok(None);
                 };
                 let mut level = vec![State { walls: state.walls.clone(), share }];
@@ -100,8 +102,26 @@ impl Problem<'_> {
             found.truncate(self.solver.beam);
             beam = found;
         }
-        let best = beam.into_iter().next();
-        Ok(best.map(|state| Solution { walls: self.task.ordered(&state.walls), share: state.share, trials }))
+        let Some(best) = beam.into_iter().next() else { return Ok(None) };
+        let Some(best) = self.pruned(best, &mut trials, stop)? else { return Ok(None) };
+        Ok(Some(Solution { walls: self.task.ordered(&best.walls), share: best.share, trials }))
+    }
+    /// The same without walls that are not needed: the longest first, each is left out where as many targets arrive as before, or
+    /// enough.
+    fn pruned(&self, mut state: State, trials: &mut u64, stop: &dyn Fn() -> bool) -> Result<Option<State>, String> {
+        let mut order = state.walls.clone();
+        order.sort_by(|a, b| b.at.length().total_cmp(&a.at.length()));
+        for wall in order {
+            let walls: Vec<Wall> = state.walls.iter().copied().filter(|other| *other != wall).collect();
+            let last = self.task.legs() - 1;
+            let Some(share) = self.share(&walls, last, 0, self.solver.further_trials, trials, stop)? else {
+                return Ok(None);
+            };
+            if share >= state.share.min(self.solver.enough) {
+                state = State { walls, share };
+            }
+        }
+        Ok(Some(state))
     }
     /// Those that are enough first, by the least wall; then the others by their shares.
     fn rank(&self, states: &mut [State]) {
@@ -156,7 +176,10 @@ impl Problem<'_> {
         let beside = BESIDE[draws.below("beside", BESIDE.len())] * task.half_width;
         let side = if draws.uniform("side", 0) < 0.5 { 1.0 } else { -1.0 };
         let angles = (LEANING / solver.angle_step).floor() as usize;
-        let lean = (draws.below("angle", 2 * angles + 1) as f64 - angles as f64) * solver.angle_step.to_radians();
+        // channels along the way are as frequent as all walls that lean
+        let leans = draws.uniform("leans", 0) < 0.5;
+        let steps = draws.below("angle", 2 * angles + 1) as f64 - angles as f64;
+        let lean = if leans { steps * solver.angle_step.to_radians() } else { 0.0 };
         let lengths = ((solver.longest - solver.shortest) / STEP).floor().max(0.0) as usize + 1;
         let length = solver.shortest + STEP * draws.below("length", lengths) as f64;
         let wall = |side: f64| {

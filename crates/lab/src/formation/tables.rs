@@ -22,7 +22,9 @@ type Filled = (Vec<Heading>, Vec<Values>);
 /// Where the system refuses.
 pub fn write(folder: &Folder, results: &Results<'_>) -> Result<(), StoreError> {
     let notes = [("flockworks.title".to_owned(), results.plan.form.title.clone())];
-    for (name, (headings, columns)) in [(OUTCOMES, outcomes(results)), (TRIALS, trials(results)), (WALLS, walls(results))] {
+    for (name, (headings, columns)) in
+        [(OUTCOMES, outcomes(results)), (TRIALS, trials(results)), (WALLS, walls(results))]
+    {
         write_table(folder, name, &headings, &columns, &notes)?;
     }
     Ok(())
@@ -34,10 +36,8 @@ fn long(numbers: impl Iterator<Item = u64>) -> Values {
 
 fn names(results: &Results<'_>, rows: &[(usize, usize)]) -> (Vec<Heading>, Vec<Values>) {
     let plan = results.plan;
-    let headings = vec![
-        Heading::new("task", "", "The task.", Kind::Word),
-        Heading::new("method", "", "The method.", Kind::Word),
-    ];
+    let headings =
+        vec![Heading::new("task", "", "The task.", Kind::Word), Heading::new("method", "", "The method.", Kind::Word)];
     let columns = vec![
         words(rows.iter().map(|row| plan.tasks[row.0].name.clone())),
         words(rows.iter().map(|row| plan.methods[row.1].name.clone())),

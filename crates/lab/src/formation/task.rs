@@ -164,8 +164,10 @@ pub(crate) mod tests {
     fn progress_counts_gates_in_order_and_the_goal_last() {
         let task = turn();
         let mut progress = Progress::new(&task, 2);
-        let ways: [&[[f64; 2]]; 2] =
-            [&[[0.0, -4.0], [0.1, -1.0], [-1.0, 0.5], [-4.0, 0.0]], &[[0.0, -4.0], [-4.0, -4.0], [-4.0, 0.0], [-4.0, 0.0]]];
+        let ways: [&[[f64; 2]]; 2] = [
+            &[[0.0, -4.0], [0.1, -1.0], [-1.0, 0.5], [-4.0, 0.0]],
+            &[[0.0, -4.0], [-4.0, -4.0], [-4.0, 0.0], [-4.0, 0.0]],
+        ];
         for k in 0..4 {
             progress.step(&ways.map(|way| Vector(way[k])));
         }

@@ -9,8 +9,8 @@ use crate::scenario::start::{About, BallRegion, Heading, Place, Start};
 use crate::scenario::surroundings::{Ball, Obstacle, ObstacleShape};
 use crate::scenario::{Precision, Scenario};
 use measure::behaviours::{Moment, Setting, Watch, find};
-use space::shape::Shape;
 use space::Vector;
+use space::shape::Shape;
 use swarm::models::{Catalogue, Models};
 use swarm::parameters::Scalar;
 use terrain::{Geometry, Point, hull, within};
@@ -153,10 +153,6 @@ where
     let task = arena.task;
     let mut scenario = arena.scenario.clone();
     let first_wall = scenario.obstacle.len();
-    scenario.obstacle.extend(
-        crate::environment::trial::obstacles(&arena.walls.iter().map(|wall| Geometry::Wall(wall.at)).collect::<Vec<_>>()),
-    );
-    let first_robot = scenario.obstacle.len();
     let mut controller = arena.by.controller(task, &arena.walls, arena.timed);
     let members: usize = scenario.group.0.iter().map(|(_, group)| group.count).sum();
     let mut progress = Progress::new(task, members);
@@ -168,6 +164,17 @@ where
     let places = controller.begin(&begin);
     let mut outside = arena.bounds.map_or(Vector::ZERO, |bounds| bounds.1);
     outside += Vector([OUTSIDE; 2]);
+    // walls that do not stand yet are in nobody's way at the start
+    let away = |wall: usize| if controller.stands(wall) { Vector::ZERO } else { outside };
+    let drawn: Vec<Point> = (0..arena.walls.len()).map(away).collect();
+    let walls: Vec<Geometry> = arena
+        .walls
+        .iter()
+        .zip(&drawn)
+        .map(|(wall, away)| Geometry::wall(wall.at.from + *away, wall.at.to + *away))
+        .collect();
+    scenario.obstacle.extend(crate::environment::trial::obstacles(&walls));
+    let first_robot = scenario.obstacle.len();
     for _ in &places {
         let ball = Ball { centre: outside.0.to_vec(), radius: arena.shepherds.radius };
         scenario.obstacle.push(obstacle(ObstacleShape::Ball(ball)));
@@ -198,22 +205,26 @@ where
             watch.step(&Moment { positions: &positions, velocities: &[], types: &[] });
         }
         let robots = fleet.places();
-        let scene = Scene { task, progress: &progress, targets: &targets, robots: &robots, radii, bounds: arena.bounds, time };
+        let scene =
+            Scene { task, progress: &progress, targets: &targets, robots: &robots, radii, bounds: arena.bounds, time };
         let middle = super::controllers::Flock::of(&targets).centre;
         dispersion += targets.iter().map(|&target| (target - middle).length()).sum::<f64>() / members.max(1) as f64;
-        held += u64::from(robots.len() > 2 && {
-            let hull = hull(&robots);
-            targets.iter().all(|&target| within(&hull, target))
-        });
+        held += u64::from(
+            robots.len() > 2 && {
+                let hull = hull(&robots);
+                targets.iter().all(|&target| within(&hull, target))
+            },
+        );
         if progress.share(parts) >= 1.0 && last.is_nan() {
             last = time;
         }
         // where nobody decides, nothing is asked
-        let goals = if robots.is_empty() || fleet.due(time, arena.step) { controller.goals(&scene) } else { Vec::new() };
+        let goals =
+            if robots.is_empty() || fleet.due(time, arena.step) { controller.goals(&scene) } else { Vec::new() };
         put.clear();
         for (wall, stands) in standing.iter_mut().enumerate() {
             *stands = controller.stands(wall);
-            put.push((first_wall + wall, stands.then_some(Vector::ZERO)));
+            put.push((first_wall + wall, stands.then_some(narrow(-drawn[wall]))));
         }
         see(Shown { time, targets: &targets, robots: &robots, standing: &standing });
         if step == arena.steps || progress.share(parts) >= 1.0 {

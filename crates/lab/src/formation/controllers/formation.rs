@@ -117,7 +117,8 @@ impl Switching {
         let places: Vec<(usize, Point)> =
             open.flat_map(|&wall| self.posts[wall].iter().map(move |&post| (wall, post))).collect();
         let of = |k: &usize| robots[*k];
-        let chosen = chosen(&free.iter().map(of).collect::<Vec<_>>(), &places.iter().map(|place| place.1).collect::<Vec<_>>());
+        let chosen =
+            chosen(&free.iter().map(of).collect::<Vec<_>>(), &places.iter().map(|place| place.1).collect::<Vec<_>>());
         for (&k, post) in free.iter().zip(chosen) {
             self.wall[k] = post.map(|post| places[post].0);
             if let Some(post) = post {

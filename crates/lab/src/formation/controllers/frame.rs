@@ -13,15 +13,15 @@ form! {
     /// Robots about a frame, open in front.
     pub struct Piloting {
         /// How many robots.
-        robots: usize = [6usize], "1", Within(1.0, 1000.0);
+        robots: usize = [8usize], "1", Within(1.0, 1000.0);
         /// Their distance from the middle of the frame.
-        radius: f64 = [1.1], "length", Positive;
+        radius: f64 = [1.0], "length", Positive;
         /// Angle in front that is open.
-        open: f64 = [150.0], "deg", Within(0.0, 350.0);
+        open: f64 = [140.0], "deg", Within(0.0, 350.0);
         /// Speed of the frame.
-        speed: f64 = [0.15], "length/time", Positive;
+        speed: f64 = [0.4], "length/time", Positive;
         /// The frame waits while the middle of the targets is farther behind.
-        slack: f64 = [0.3], "length", Positive;
+        slack: f64 = [0.2], "length", Positive;
     }
 }
 
@@ -29,13 +29,13 @@ form! {
     /// Robots on a ring about a frame.
     pub struct Caging {
         /// How many robots.
-        robots: usize = [8usize], "1", Within(3.0, 1000.0);
+        robots: usize = [10usize], "1", Within(3.0, 1000.0);
         /// Radius of the ring.
-        radius: f64 = [1.1], "length", Positive;
+        radius: f64 = [1.0], "length", Positive;
         /// Speed of the frame.
-        speed: f64 = [0.12], "length/time", Positive;
+        speed: f64 = [0.25], "length/time", Positive;
         /// The frame waits while the middle of the targets is farther behind.
-        slack: f64 = [0.5], "length", Positive;
+        slack: f64 = [0.2], "length", Positive;
     }
 }
 
@@ -109,7 +109,11 @@ mod tests {
     fn posts_are_on_the_ring_and_the_front_is_open() {
         let mut frame = Frame::new(5, 2.0, std::f64::consts::PI, 0.1, 0.1);
         let posts = frame.posts(Vector([1.0, 0.0]));
-        assert!(posts.iter().all(|post| post[0] <= 1.0 + 1e-9 && ((*post - Vector([1.0, 0.0])).length() - 2.0).abs() < 1e-12));
+        assert!(
+            posts
+                .iter()
+                .all(|post| post[0] <= 1.0 + 1e-9 && ((*post - Vector([1.0, 0.0])).length() - 2.0).abs() < 1e-12)
+        );
         assert!((posts[0] - Vector([1.0, 2.0])).length() < 1e-9 && (posts[4] - Vector([1.0, -2.0])).length() < 1e-9);
         frame.open = 0.0;
         let ring = frame.posts(Vector([0.0, 0.0]));

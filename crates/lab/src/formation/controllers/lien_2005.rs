@@ -65,9 +65,11 @@ impl Controller for Lien2005 {
         let flock = Flock::of(scene.targets);
         let mut points = self.steering_points(flock, scene.milestone());
         let far = |target: &&Point| self.regroup.is_some_and(|far| (**target - flock.centre).length() > far);
-        let farthest = scene.targets.iter().filter(far).max_by(|a, b| {
-            (**a - flock.centre).length().total_cmp(&(**b - flock.centre).length())
-        });
+        let farthest = scene
+            .targets
+            .iter()
+            .filter(far)
+            .max_by(|a, b| (**a - flock.centre).length().total_cmp(&(**b - flock.centre).length()));
         if let (Some(&stray), Some(first)) = (farthest, points.first_mut()) {
             *first = stray + (stray - flock.centre).unit() * (scene.radii.0 + scene.radii.1 + self.margin);
         }
@@ -88,8 +90,7 @@ mod tests {
     fn steering_points_lie_behind() {
         let flock = Flock { centre: Vector([0.0, 0.0]), radius: 1.0 };
         for steering in [Steering::Line, Steering::Arc] {
-            let form =
-                Lien2005 { robots: 3, steering, margin: 0.5, safe_zone: 1.0, spread: 90.0, regroup: None };
+            let form = Lien2005 { robots: 3, steering, margin: 0.5, safe_zone: 1.0, spread: 90.0, regroup: None };
             let points = form.steering_points(flock, Vector([5.0, 0.0]));
             assert!((points[1] - Vector([-1.5, 0.0])).length() < 1e-12);
             assert!(points.iter().all(|point| point[0] < -1.0));

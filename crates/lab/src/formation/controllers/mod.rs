@@ -94,7 +94,9 @@ impl By {
                 Box::new(walls::Standing::new(task, walls, form, all))
             }
             Self::Posts(form) => Box::new(posts::Resting::new(form, walls)),
-            Self::Restored(_) => Box::new(walls::Standing::new(task, walls, &walls::Walls::default(), Some(0..usize::MAX))),
+            Self::Restored(_) => {
+                Box::new(walls::Standing::new(task, walls, &walls::Walls::default(), Some(0..usize::MAX)))
+            }
             Self::Formation(form) => Box::new(formation::Switching::new(form, task, walls)),
             Self::Piloting(form) => Box::new(form.controller()),
             Self::Caging(form) => Box::new(form.controller()),
