@@ -78,7 +78,7 @@ fn mistakes_are_told_at_their_place() {
         ("leg = 2, at = [1.2,", "leg = 3, at = [1.2,", "the path has 2 legs"),
         ("\"corner, robots\"", "\"corner, robot\"", "did you mean `robots`?"),
         ("fitness[method = walls] >", "fitnes[method = walls] >", "did you mean `fitness`?"),
-        ("count = 4", "count = 400", "cannot begin"),
+        ("count = 4", "count = 400", "found a place"),
     ] {
         let text = template.replacen(from, to, 1);
         assert_ne!(text, template, "{from}");
