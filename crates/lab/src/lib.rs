@@ -5,6 +5,7 @@ pub mod environment;
 pub mod evolution;
 pub mod explain;
 pub mod file;
+pub mod formation;
 pub mod gallery;
 pub mod live;
 pub mod map;

@@ -241,6 +241,21 @@ impl<R: Real, const D: usize> Obstacles<R, D> {
         changed
     }
 
+    /// Puts obstacles, by index, at these offsets from their drawn places; `None` takes one away. Those that have a plan go
+    /// where it has them at the next [`Self::advance`]. An index that is not there is passed over.
+    pub fn put(&mut self, places: &[(usize, Option<Vector<R, D>>)]) {
+        let mut changed = false;
+        for &(index, place) in places {
+            if let Some(offset) = self.offsets.get_mut(index) {
+                changed |= *offset != place;
+                *offset = place;
+            }
+        }
+        if changed {
+            self.place();
+        }
+    }
+
     /// Rebuilds what depends on where the obstacles are.
     fn place(&mut self) {
         self.places.clear();
@@ -717,6 +732,20 @@ mod tests {
         }
         assert!(found > questions / 10 && crossed > 0 && struck > crossed && hidden > 0, "the questions were idle");
         assert!(crossed < questions && hidden < questions);
+    }
+
+    #[test]
+    fn what_is_put_somewhere_stays_there() {
+        let ball = Obstacle::new(Shape::Ball { centre: Vector([0.0, 0.0]), radius: 1.0 });
+        let gone = Obstacle { plan: Some(Plan { appears: 5.0, ..Plan::default() }), ..ball.clone() };
+        let mut obstacles = Obstacles::<f64, 2>::new(vec![ball, gone], [None; 2], 1.0).unwrap();
+        let at = |obstacles: &Obstacles<f64, 2>, x: f64| obstacles.overlapping(Vector([x, 0.0]), 0.1);
+        obstacles.put(&[(0, Some(Vector([7.0, 0.0]))), (9, None)]);
+        assert_eq!((at(&obstacles, 0.0), at(&obstacles, 7.0)), (None, Some(0)));
+        assert!(obstacles.advance(6.0), "the other has a plan");
+        assert_eq!((at(&obstacles, 0.0), at(&obstacles, 7.0)), (Some(1), Some(0)));
+        obstacles.put(&[(0, None)]);
+        assert_eq!(at(&obstacles, 7.0), None);
     }
 
     #[test]

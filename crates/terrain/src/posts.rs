@@ -1,8 +1,11 @@
-//! Robots instead of walls: the posts that stand for a wall, and who goes to which.
+//! Robots instead of walls: the posts that stand for a wall, who goes to which, which way, and the walls that posts stand for.
 
 use crate::TerrainError;
-use crate::geometry::Point;
-use space::Segment;
+use crate::arrangement::hull;
+use crate::geometry::{Point, regular};
+use crate::workspace::within;
+use space::segment::Relation;
+use space::{Segment, Vector};
 
 /// Where the posts of a wall stand along it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -135,6 +138,58 @@ pub fn assign_to_posts(robots: &[Point], posts: &[Point]) -> Result<(f64, Vec<Op
     assignment(&cost)
 }
 
+/// Corners of the polygon that stands for a disc.
+const SIDES: usize = 8;
+
+/// The shortest way from a place to another round discs of radius `margin` about some points, by the corners of the polygon that holds
+/// them; its last point is `to`. Straight where nothing is in the way, and where either end is among the discs.
+pub fn way_round(from: Point, to: Point, points: &[Point], margin: f64) -> Vec<Point> {
+    // around the disc, not inside it
+    let reach = margin / (std::f64::consts::PI / SIDES as f64).cos();
+    let corners: Vec<Point> = points.iter().flat_map(|&point| regular(point, reach, SIDES)).collect();
+    let round = hull(&corners);
+    let straight = Segment { from, to };
+    let edges = (0..round.len()).map(|k| Segment { from: round[k], to: round[(k + 1) % round.len()] });
+    let crossed = edges.filter(|edge| edge.relation(&straight) == Relation::Proper).count();
+    if round.len() < 3 || crossed < 2 || within(&round, from) || within(&round, to) {
+        return vec![to];
+    }
+    let all: Vec<Point> = round.iter().copied().chain([from, to]).collect();
+    let ring = hull(&all);
+    let place = |wanted: Point| ring.iter().position(|corner| *corner == wanted);
+    let (Some(begin), Some(end)) = (place(from), place(to)) else { return vec![to] };
+    let count = ring.len();
+    let onward: Vec<Point> = (1..=(end + count - begin) % count).map(|k| ring[(begin + k) % count]).collect();
+    let back: Vec<Point> = (1..=(begin + count - end) % count).map(|k| ring[(begin + count - k) % count]).collect();
+    let length = |way: &[Point]| way.iter().fold((0.0, from), |(sum, at), &next| (sum + (next - at).length(), next)).0;
+    if length(&back) < length(&onward) { back } else { onward }
+}
+
+/// The way back: the walls that posts stand for, and the posts that stand for none. Posts no farther apart than `gap` are of one
+/// wall; a wall goes along its posts' longest extent, from end to end, or half a cell beyond where they stand in cells.
+pub fn walls_of(posts: &[Point], gap: f64, spacing: Spacing) -> (Vec<Segment>, Vec<Point>) {
+    let (mut walls, mut alone) = (Vec::new(), Vec::new());
+    let mut left: Vec<Point> = posts.to_vec();
+    while let Some(first) = left.pop() {
+        let mut own = vec![first];
+        while let Some(next) = left.iter().position(|&post| own.iter().any(|&other| (post - other).length() <= gap)) {
+            own.push(left.remove(next));
+        }
+        let pairs = own.iter().flat_map(|&a| own.iter().map(move |&b| (a, b)));
+        let far = pairs.max_by(|x, y| (x.1 - x.0).length().total_cmp(&(y.1 - y.0).length()));
+        let Some((from, to)) = far.filter(|(from, to)| from != to) else {
+            alone.push(first);
+            continue;
+        };
+        let beyond = match spacing {
+            Spacing::Cells => (to - from) / (2.0 * (own.len() - 1) as f64),
+            Spacing::Ends => Vector::ZERO,
+        };
+        walls.push(Segment { from: from - beyond, to: to + beyond });
+    }
+    (walls, alone)
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
@@ -197,5 +252,43 @@ mod tests {
         let (distance, chosen) =
             assign_to_posts(&[Vector([0.0, 0.0]), Vector([9.0, 0.0])], &[Vector([8.0, 0.0])]).unwrap();
         assert_eq!((distance, chosen), (1.0, vec![None, Some(0)]));
+    }
+
+    #[test]
+    fn ways_go_round_the_shorter_side_and_keep_the_margin() {
+        let (from, to) = (Vector([-3.0, 0.2]), Vector([3.0, 0.2]));
+        assert_eq!(way_round(from, to, &[Vector([0.0, 5.0])], 1.0), [to], "nothing is in the way");
+        assert_eq!(way_round(from, to, &[], 1.0), [to]);
+        assert_eq!(way_round(Vector([0.1, 0.0]), to, &[Vector([0.0, 0.0])], 1.0), [to], "it begins among them");
+        let group = [Vector([0.0, 0.0]), Vector([0.5, 0.0])];
+        let way = way_round(from, to, &group, 1.0);
+        assert!(way.len() > 2 && way.iter().all(|corner| corner[1] > 0.0), "above: {way:?}");
+        let mut at = from;
+        for next in way {
+            let step = Segment { from: at, to: next };
+            assert!(group.iter().all(|&member| step.distance(member) >= 1.0 - 1e-12));
+            at = next;
+        }
+        assert_eq!(at, to);
+    }
+
+    #[test]
+    fn posts_tell_their_walls() {
+        let walls = [Segment::new([0.0, 0.0], [3.0, 0.0]), Segment::new([5.0, 1.0], [5.0, 2.5])];
+        for spacing in [Spacing::Cells, Spacing::Ends] {
+            let all: Vec<Point> = walls.iter().flat_map(|wall| posts(wall, 3, spacing)).collect();
+            let (back, alone) = walls_of(&all, 1.6, spacing);
+            assert_eq!((back.len(), alone.len()), (2, 0));
+            for wall in &walls {
+                let same = |other: &Segment| {
+                    let apart = |a: Point, b: Point| (a - b).length() < 1e-12;
+                    apart(other.from, wall.from) && apart(other.to, wall.to)
+                        || apart(other.from, wall.to) && apart(other.to, wall.from)
+                };
+                assert!(back.iter().any(same), "{wall:?} among {back:?}");
+            }
+        }
+        assert_eq!(walls_of(&[Vector([1.0, 1.0])], 1.0, Spacing::Cells), (vec![], vec![Vector([1.0, 1.0])]));
+        assert_eq!(walls_of(&[], 1.0, Spacing::Cells), (vec![], vec![]));
     }
 }

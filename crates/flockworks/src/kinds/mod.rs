@@ -3,6 +3,7 @@
 
 mod design;
 mod evolution;
+mod formation;
 mod map;
 mod optimisation;
 mod progress;
@@ -22,8 +23,16 @@ use std::io::{IsTerminal, Write};
 use std::path::Path;
 
 /// Every kind, in the order in which they are named.
-pub const LIST: &[&dyn Kind] =
-    &[&scenario::Scenario, &study::Study, &evolution::Evolution, &design::Design, &map::Map, &optimisation::Optimisation, &tracks::Tracks];
+pub const LIST: &[&dyn Kind] = &[
+    &scenario::Scenario,
+    &study::Study,
+    &evolution::Evolution,
+    &design::Design,
+    &map::Map,
+    &optimisation::Optimisation,
+    &formation::Formation,
+    &tracks::Tracks,
+];
 
 /// A file that was named on the command line.
 #[derive(Clone, Debug)]

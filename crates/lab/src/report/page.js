@@ -171,7 +171,7 @@
   }
 
   for (const moment of all(".moment")) {
-    one("[data-do=svg]", moment).addEventListener("click", () => {
+    one("[data-do=svg]", moment)?.addEventListener("click", () => {
       saveText(`${moment.dataset.file}.svg`, alone(one("svg", moment)), "image/svg+xml");
     });
   }

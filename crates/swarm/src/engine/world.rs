@@ -612,6 +612,11 @@ impl<R: Scalar, const D: usize> World<R, D> {
     pub fn obstacles(&self) -> &Obstacles<R, D> {
         &self.obstacles
     }
+    /// Puts obstacles, by index, at these offsets from their drawn places; `None` takes one away. For whoever steers obstacles
+    /// that have no plan from outside, between two steps; a checkpoint does not hold it.
+    pub fn put_obstacles(&mut self, places: &[(usize, Option<Vector<R, D>>)]) {
+        self.obstacles.put(places);
+    }
     /// Contacts since the start: with members, obstacles, walls.
     pub fn collisions(&self) -> (u64, u64, u64) {
         (self.met_total[1], self.met_total[2], self.met_total[3])

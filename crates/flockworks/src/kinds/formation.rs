@@ -1,0 +1,99 @@
+//! `kind = "formation"`: targets that are brought along by walls, by robots in their places, or by herding.
+
+use super::progress::Progress;
+use super::{Input, Kind, shown};
+use crate::fault::{Fault, wrong};
+use crate::run::{self, INTERRUPTED, PROGRAM, RunOptions, text_of};
+use crate::view::ViewOptions;
+use lab::formation::execute::{self, REPORT};
+use lab::formation::form::Formation as Form;
+use lab::formation::results::NAMES;
+use lab::formation::tables::{OUTCOMES, TRIALS, WALLS};
+use lab::formation::{self, Plan};
+use serde_json::Value as Json;
+use std::io::Write;
+use std::path::Path;
+
+/// Robots in the places of walls.
+pub(super) struct Formation;
+
+impl Kind for Formation {
+    fn id(&self) -> &'static str {
+        "formation"
+    }
+    fn template(&self) -> &'static str {
+        formation::TEMPLATE
+    }
+    fn schema(&self) -> Json {
+        lab::file::schema::schema::<Form>("flockworks formation")
+    }
+    fn reference(&self) -> String {
+        let names: Vec<String> = NAMES.iter().map(|(name, about)| format!("- `{name}`: {about}")).collect();
+        let lead = format!(
+            "Every key of a formation file, TOML. [How to write one](../how-to/formation.md). Workspaces are those of [design \
+             files](design.md).\n\nWhat statements can ask for, with `[task = ..., method = ...]`; without a task it is the mean over \
+             tasks:\n\n{}",
+            names.join("\n")
+        );
+        lab::file::reference::reference::<Form>("Formation files", &lead)
+    }
+    fn check(&self, input: &Input) -> Result<String, Fault> {
+        let plan = read(input, false)?;
+        let searched = (0..plan.tasks.len()).filter(|&task| plan.searched(task)).count();
+        Ok(format!(
+            "{} tasks ({searched} whose walls are searched), {} methods, {} trials of each",
+            plan.tasks.len(),
+            plan.methods.len(),
+            plan.trials
+        ))
+    }
+    fn run(&self, mut input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
+        if let Some(option) = options.study.given() {
+            return wrong(format!("`{}` is a formation file, and {option} is for studies", input.name));
+        }
+        if let Some(seed) = options.seed {
+            input.sets.push(format!("seed={seed}"));
+        }
+        let plan = read(&input, options.quick)?;
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        run::listen()?;
+        let mut progress = Progress::new();
+        let threads = options.threads.unwrap_or(cores);
+        let done = execute::run(&plan, threads, options.out.as_deref(), PROGRAM, &mut progress);
+        progress.clear();
+        let done = done?;
+        if done.left > 0 {
+            writeln!(out, "stopped, {} searches and trials are left; the same command continues it", done.left)?;
+            return Ok(INTERRUPTED);
+        }
+        writeln!(out, "{}", plan.form.title)?;
+        for line in &done.lines {
+            writeln!(out, "  {line}")?;
+        }
+        writeln!(out, "{} trials in {:.1} s", done.trials, done.seconds)?;
+        told(&done.folder, out)?;
+        Ok(0)
+    }
+    fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
+        Ok((input.name.clone(), read(input, true)?.viewed()))
+    }
+    fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
+        execute::of_folder(folder)?;
+        Ok(vec![OUTCOMES, TRIALS, WALLS])
+    }
+    fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
+        execute::report_again(folder, PROGRAM)?;
+        told(folder, out)
+    }
+}
+
+fn told(folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
+    writeln!(out, "tables        {}", folder.display())?;
+    writeln!(out, "page          {}", folder.join(REPORT).display())?;
+    Ok(())
+}
+
+fn read(input: &Input, quick: bool) -> Result<Plan, Fault> {
+    let mut load = |path: &str| text_of(path).map_err(|fault| fault.to_string());
+    formation::read(&input.name, &input.text, &input.sets, quick, &mut load).map_err(|problems| shown(&problems))
+}
