@@ -1,9 +1,9 @@
 //! `kind = "formation"`: targets that are brought along by walls, by robots in their places, or by herding.
 
-use super::progress::Progress;
+use super::progress::{self, End, Progress};
 use super::{Input, Kind, shown};
-use crate::fault::{Fault, wrong};
-use crate::run::{self, INTERRUPTED, PROGRAM, RunOptions, text_of};
+use crate::fault::Fault;
+use crate::run::{self, PROGRAM, RunOptions, text_of};
 use crate::view::ViewOptions;
 use lab::formation::execute::{self, REPORT};
 use lab::formation::form::Formation as Form;
@@ -48,31 +48,21 @@ impl Kind for Formation {
         ))
     }
     fn run(&self, mut input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
-        if let Some(option) = options.study.given() {
-            return wrong(format!("`{}` is a formation file, and {option} is for studies", input.name));
-        }
-        if let Some(seed) = options.seed {
-            input.sets.push(format!("seed={seed}"));
-        }
+        let threads = progress::begin(&mut input, options, "a formation")?;
         let plan = read(&input, options.quick)?;
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
         run::listen()?;
         let mut progress = Progress::new();
-        let threads = options.threads.unwrap_or(cores);
         let done = execute::run(&plan, threads, options.out.as_deref(), PROGRAM, &mut progress);
         progress.clear();
         let done = done?;
-        if done.left > 0 {
-            writeln!(out, "stopped, {} searches and trials are left; the same command continues it", done.left)?;
-            return Ok(INTERRUPTED);
-        }
-        writeln!(out, "{}", plan.form.title)?;
-        for line in &done.lines {
-            writeln!(out, "  {line}")?;
-        }
-        writeln!(out, "{} trials in {:.1} s", done.trials, done.seconds)?;
-        told(&done.folder, out)?;
-        Ok(0)
+        let end = End {
+            stopped: (done.left > 0).then(|| format!("stopped, {} searches and trials are left", done.left)),
+            made: format!("{} trials", done.trials),
+            title: &plan.form.title,
+            lines: &done.lines,
+            seconds: done.seconds,
+        };
+        end.tell(out, |out| told(&done.folder, out))
     }
     fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
         Ok((input.name.clone(), read(input, true)?.viewed()))
