@@ -182,7 +182,7 @@ class Session {
 
   begin(seed) {
     const { plan } = this;
-    Object.assign(this, { seed, flock: new Flock(plan, seed), frameAt: 0, playing: false, unseen: 0 });
+    Object.assign(this, { seed, flock: new Flock(plan, seed), frameAt: 0, playing: false });
     const axes = Array(plan.dimensions).fill(0);
     this.history = [];
     const all = [];
@@ -260,7 +260,7 @@ class Session {
     }
     if (what === "focus") { this.focus = message.agent; if (message.agent !== null) this.say({ is: "explain", explanation: this.flock.explain(message.agent) }); }
     if (what === "save") this.say({ is: "file", text: `title = "${this.plan.title}"\nspeed = ${this.flock.values["group.fish.model.speed"]}\n` });
-    if (what === "seen") this.unseen = Math.max(0, this.unseen - 1);
+    if (what === "seen") this.unseen = this.number - message.number;
     this.timer = setInterval(() => this.tick(), 1000 / (Math.abs(this.rate) || 120));
   }
 }

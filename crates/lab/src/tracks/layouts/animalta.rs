@@ -28,6 +28,6 @@ fn plan(head: &Head, _: &Ask) -> Result<Option<Plan>, StoreError> {
     if places.is_empty() {
         return Ok(None);
     }
-    let time = at("Time").map(|column| Clock { column, stamps: false });
+    let time = at("Time").map(Clock::seconds);
     Ok(Some(Plan { skip: 1, frame: at("Frame"), time, places, names, ..Plan::default() }))
 }

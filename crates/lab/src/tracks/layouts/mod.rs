@@ -5,7 +5,7 @@
 
 mod animalta;
 mod deeplabcut;
-mod idtracker;
+pub(crate) mod idtracker;
 mod long;
 mod pedestrian;
 mod sleap;
@@ -64,12 +64,29 @@ pub struct Plan {
 }
 
 /// A column of times.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
     /// The column.
     pub column: usize,
-    /// Whether it holds dates with a time of day in words; else numbers of seconds.
+    /// Whether it holds dates with a time of day in words; else numbers.
     pub stamps: bool,
+    /// Seconds in the unit of its numbers, where that is said; else they are taken for seconds.
+    pub unit: Option<f64>,
+}
+
+impl Clock {
+    /// A column of seconds.
+    pub fn seconds(column: usize) -> Self {
+        Self { column, stamps: false, unit: Some(1.0) }
+    }
+    /// A column of numbers or of time stamps, behind the rows that are skipped.
+    ///
+    /// # Errors
+    /// A unit of time that is not known.
+    fn of(head: &Head, ask: &Ask, names: &[String], column: usize, skip: usize) -> Result<Self, StoreError> {
+        let unit = super::names::time_unit_of(head, ask, &names[column])?;
+        Ok(Self { column, stamps: head.holds_words(column, skip), unit })
+    }
 }
 
 /// A place in a row.

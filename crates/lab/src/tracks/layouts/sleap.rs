@@ -2,8 +2,8 @@
 
 use super::{Layout, Place, Plan, Point, Who, chosen_points};
 use crate::store::StoreError;
-use crate::tracks::Ask;
 use crate::tracks::text::Head;
+use crate::tracks::{Ask, wrong};
 
 pub(super) const LAYOUT: Layout =
     Layout { id: "sleap", about: "SLEAP: track, frame_idx, and x and y of each body part", plan };
@@ -12,7 +12,21 @@ fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let Some(names) = head.header() else { return Ok(None) };
     let names = names.to_vec();
     let at = |name: &str| names.iter().position(|other| other == name);
-    let (Some(track), Some(frame)) = (at("track"), at("frame_idx")) else { return Ok(None) };
+    let Some(frame) = at("frame_idx") else { return Ok(None) };
+    let instance = |name: &String| {
+        let number = name.strip_prefix("inst").and_then(|rest| rest.split_once('.'));
+        number.is_some_and(|(number, _)| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
+    };
+    if let Some(name) = names.iter().find(|name| instance(name)) {
+        return Err(wrong(
+            &head.path,
+            &format!(
+                "`{name}`: SLEAP numbers instances anew in each frame, they are no individuals; export its analysis CSV with \
+                 tracks, or say --layout wide if yours are"
+            ),
+        ));
+    }
+    let Some(track) = at("track") else { return Ok(None) };
     let mut parts = Vec::new();
     for (column, name) in names.iter().enumerate() {
         let Some(part) = name.strip_suffix(".x") else { continue };
@@ -23,6 +37,8 @@ fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
         return Ok(None);
     }
     let points = chosen_points(head, ask, &parts, "the skeleton")?;
-    let places = vec![Place { who: Who::Column(track), points, velocity: None }];
+    // where nothing was tracked the column is empty: of one animal it does not matter
+    let who = if ask.column("id") == Some("none") { Who::Name("1".into()) } else { Who::Column(track) };
+    let places = vec![Place { who, points, velocity: None }];
     Ok(Some(Plan { skip: 1, frame: Some(frame), places, unit: Some("px".into()), names, ..Plan::default() }))
 }

@@ -39,7 +39,7 @@ fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let notes = vec![format!("positions of the {}", if *part == "head" { "head" } else { "weighted centroid" })];
     let who = Who::Name(individual(&head.stem()).unwrap_or_else(|| head.stem()));
     let place = Place { who, points: vec![Point::at(axes.to_vec())], velocity: None };
-    let time = at("time").map(|column| Clock { column, stamps: false });
+    let time = at("time").map(Clock::seconds);
     let frame = at("frame");
     Ok(Some(Plan { skip: 1, frame, time, places: vec![place], names, notes, ..Plan::default() }))
 }

@@ -73,7 +73,7 @@ fn named(head: &Head, ask: &Ask, names: Vec<String>) -> Result<Option<Plan>, Sto
     };
     let places = individuals.into_iter().map(place).collect();
     let (frame, time) = (at("frame")?, at("time")?);
-    let time = time.map(|column| Clock { column, stamps: head.holds_words(column, 1) });
+    let time = time.map(|column| Clock::of(head, ask, &names, column, 1)).transpose()?;
     Ok(Some(Plan { skip: 1, frame, time, places, names, ..Plan::default() }))
 }
 
