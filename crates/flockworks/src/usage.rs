@@ -1,7 +1,7 @@
 //! The words of the command line, and mistakes in them, said as all other mistakes are: one sentence with what was expected.
 
 use crate::command::Line;
-use crate::fault::Fault;
+use crate::fault::{Fault, hint};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches};
 
@@ -33,7 +33,7 @@ pub fn mistake(error: &clap::Error) -> Option<Fault> {
     let argument = quoted(ContextKind::InvalidArg);
     let value = words(ContextKind::InvalidValue).concat();
     let known = quoted(ContextKind::ValidValue);
-    let meant = [ContextKind::SuggestedArg, ContextKind::SuggestedSubcommand, ContextKind::SuggestedValue];
+    let meant = [ContextKind::SuggestedArg, ContextKind::SuggestedValue];
     let meant = meant.map(quoted).concat();
     let meant = if meant.is_empty() { String::new() } else { format!("; did you mean {meant}?") };
     let what = match error.kind() {
@@ -45,7 +45,10 @@ pub fn mistake(error: &clap::Error) -> Option<Fault> {
         }
         ErrorKind::UnknownArgument => format!("{argument} is not known here{meant}"),
         ErrorKind::InvalidSubcommand => {
-            format!("no command is called {}{meant}", quoted(ContextKind::InvalidSubcommand))
+            let name = words(ContextKind::InvalidSubcommand).concat();
+            let line = Line::command();
+            let known: Vec<&str> = line.get_subcommands().map(clap::Command::get_name).collect();
+            format!("no command is called `{name}`{}", hint(&name, &known))
         }
         ErrorKind::MissingRequiredArgument => format!("{argument} is missing"),
         ErrorKind::ArgumentConflict => {

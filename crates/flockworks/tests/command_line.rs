@@ -181,7 +181,7 @@ fn wrong_options_are_refused() {
     refused(&["run", "a.toml", "--sed", "1"], &["`--sed` is not known here; did you mean `--seed`?"]);
     refused(&["run"], &["`<FILE>` is missing"]);
     refused(&["rn", "a.toml"], &["no command is called `rn`; did you mean `run`?"]);
-    refused(&["analyze", "a.csv", "--scale", "-x"], &["--scale"]);
+    refused(&["analyze", "a.csv", "--scale", "-1"], &["`scale` must be more than 0"]);
     refused(&["bench", "W11"], &["W11", "did you mean `W1`"]);
     refused(&["bench", "--model", "viksek_1995"], &["did you mean `vicsek_1995`"]);
 }
