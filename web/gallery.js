@@ -109,6 +109,8 @@ class Preview {
   end() { clearTimeout(this.turn); this.connection.end(); }
 
   open(card, plays) {
+    // a frame that was not drawn in time is seen too: the server sends none while two are unseen
+    if (this.frame) this.connection.send({ do: "seen", number: this.frame.number });
     Object.assign(this, { card, plays, scene: null, frame: null, obstacles: [] });
     if (card) this.connection.send({ do: "open", ...card.what });
   }
@@ -166,9 +168,7 @@ class Preview {
     requestAnimationFrame(() => {
       this.waits = false;
       const { card, frame, scene, camera } = this;
-      // what comes after a card was left is seen too: the server sends no frame while two are unseen
-      if (!card || !scene) { if (frame) this.connection.send({ do: "seen", number: frame.number }); return; }
-      if (!frame) return;
+      if (!card || !frame || !scene) return;
       const bounds = boundsOf(scene, frame), ratio = Math.min(devicePixelRatio || 1, 2);
       Object.assign(camera, { wide: WIDE, tall: TALL });
       camera.setBounds(scene.dimensions, ...bounds);

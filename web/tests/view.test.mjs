@@ -340,17 +340,23 @@ describe("the gallery", () => {
     await page.locator(".card").nth(2).waitFor();
     await messages.sends("play", () => page.locator(".card").nth(2).hover());
     await messages.sends("pause", () => page.mouse.move(1, 1));
-    // frames that come after a card was left must not keep those of the next back
-    for (const [at, card] of (await page.locator(".card", { hasText: /\d agents/ }).all()).entries()) {
-      await card.hover();
-      const picture = () => card.locator("canvas").evaluate((canvas) => canvas.toDataURL());
-      const before = await picture();
-      for (let tries = 0; await picture() === before; tries += 1) {
-        assert.ok(tries < 100, `card ${at} does not play`);
-        await page.waitForTimeout(50);
-      }
-    }
   }));
+
+  test("frames that come after a card was left do not keep back those of the next", () => {
+    // a page that draws slowly has two frames before it when a card is left
+    const prepare = () => { const soon = requestAnimationFrame; window.requestAnimationFrame = (act) => setTimeout(() => soon(act), 150); };
+    return opened({ named: [], reducedMotion: "no-preference", prepare }, async ({ page }) => {
+      for (const [at, card] of (await page.locator(".card", { hasText: /\d agents/ }).all()).entries()) {
+        await card.hover();
+        const picture = () => card.locator("canvas").evaluate((canvas) => canvas.toDataURL());
+        const before = await picture();
+        for (let tries = 0; await picture() === before; tries += 1) {
+          assert.ok(tries < 100, `card ${at} does not play`);
+          await page.waitForTimeout(50);
+        }
+      }
+    });
+  });
 
   test("cards play in turn while nobody points at one", () => opened({ named: [], reducedMotion: "no-preference" }, async ({ page, messages }) => {
     await page.locator(".card").nth(2).waitFor();
