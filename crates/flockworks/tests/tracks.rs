@@ -180,6 +180,14 @@ fn what_is_wrong_is_said_in_a_sentence_and_nothing_is_left() {
             vec!["analyze", table, "--fps", "1", "--set", "measure.parameters.eps=-1", "--metrics", "dbscan_clusters"],
             "eps",
         ),
+        (
+            vec!["analyze", table, "--fps", "1", "--scale", "nan", "--out", out],
+            "`scale` must be more than 0, found NaN",
+        ),
+        (
+            vec!["analyze", table, "--fps", "1", "--layout", "animalta", "--columns", "x=x", "--out", out],
+            "it takes frame",
+        ),
         (vec!["analyze", "nowhere.csv", "--out", out], "cannot read"),
         (vec!["analyze", table, table, "--fps", "1", "--out", out], "two recordings are called `fish`"),
     ] {

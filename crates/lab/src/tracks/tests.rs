@@ -230,6 +230,18 @@ fn animalta_wide_and_detailed() {
 }
 
 #[test]
+fn columns_that_are_named_are_used() {
+    let text = "Frame;Time;X_Arena0_Ind0;Y_Arena0_Ind0\n0;0;1;2\n1;9;2;2\n2;1;3;2\n";
+    // a hint that is given has to work
+    assert!(refuses("ata.csv", text.as_bytes(), &Ask::default()).contains("--columns time=none"));
+    let untimed = Ask { fps: Some(Rate::Known(5.0)), ..ask(&[("time", "none")]) };
+    assert_eq!(reads("ata.csv", text, &untimed).understood.rate, Some(5.0));
+    assert!(refuses("ata.csv", text.as_bytes(), &ask(&[("x", "px")])).contains("no column `px`"));
+    let asked = Ask { layout: Some("animalta".into()), ..ask(&[("x", "px")]) };
+    assert!(refuses("ata.csv", text.as_bytes(), &asked).contains("has no use for --columns x=px"));
+}
+
+#[test]
 fn longitude_and_latitude_by_the_second() {
     let text = "id,utc,t,lon,lat\n3,2012-08-05 03:00:01,0,NA,NA\n2,2012-08-05 03:00:43,42.998,36.9225912,0.3513554\n\
                 2,2012-08-05 03:00:44,43.998,36.9225903,0.3513564\n2,2012-08-05 03:00:44,44.2,36.93,0.36\n\

@@ -8,8 +8,12 @@ use crate::tracks::Ask;
 use crate::tracks::names::plain;
 use crate::tracks::text::{Head, number};
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "idtracker", about: "idtracker.ai: trajectories.csv with attributes.json beside it, or tidy", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "idtracker",
+    about: "idtracker.ai: trajectories.csv with attributes.json beside it, or tidy",
+    takes: &["frame", "time", "id", "clock"],
+    plan,
+};
 
 /// Columns of the tidy export.
 const TIDY: [&str; 6] = ["frame", "time", "individual", "x", "y", "probability"];

@@ -5,8 +5,12 @@ use crate::store::StoreError;
 use crate::tracks::text::Head;
 use crate::tracks::{Ask, names, wrong};
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "long", about: "any long table: a row for each individual at each time", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "long",
+    about: "any long table: a row for each individual at each time",
+    takes: &["frame", "time", "id", "x", "y", "z", "longitude", "latitude", "vx", "vy", "vz", "clock"],
+    plan,
+};
 
 pub(super) fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let headed = head.header().is_some();

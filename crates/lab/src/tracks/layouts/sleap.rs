@@ -1,12 +1,16 @@
 //! SLEAP: `track,frame_idx,instance.score,nose.x,nose.y,nose.score,...`, a row for each animal in each frame.
 
-use super::{Layout, Place, Plan, Point, Who, chosen_points};
+use super::{Layout, Place, Plan, Point, Who, asked_or, chosen_points};
 use crate::store::StoreError;
 use crate::tracks::text::Head;
 use crate::tracks::{Ask, wrong};
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "sleap", about: "SLEAP: track, frame_idx, and x and y of each body part", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "sleap",
+    about: "SLEAP: track, frame_idx, and x and y of each body part",
+    takes: &["point", "id"],
+    plan,
+};
 
 fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let Some(names) = head.header() else { return Ok(None) };
@@ -38,7 +42,7 @@ fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     }
     let points = chosen_points(head, ask, &parts, "the skeleton")?;
     // where nothing was tracked the column is empty: of one animal it does not matter
-    let who = if ask.column("id") == Some("none") { Who::Name("1".into()) } else { Who::Column(track) };
+    let who = asked_or(head, &names, ask, "id", Some(track))?.map_or_else(|| Who::Name("1".into()), Who::Column);
     let places = vec![Place { who, points, velocity: None }];
     Ok(Some(Plan { skip: 1, frame: Some(frame), places, unit: Some("px".into()), names, ..Plan::default() }))
 }

@@ -6,8 +6,12 @@ use crate::store::StoreError;
 use crate::tracks::text::{Head, number};
 use crate::tracks::{Ask, names, wrong};
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "wide", about: "any wide table: a row for each frame, individuals side by side", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "wide",
+    about: "any wide table: a row for each frame, individuals side by side",
+    takes: &["frame", "time", "id", "wide", "clock"],
+    plan,
+};
 
 pub(super) fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     match head.header() {
