@@ -1,4 +1,4 @@
-// The wall of built-in scenarios: a still of each, and the one that is pointed at plays.
+// The wall of built-in scenarios: a still of each; they play in turn, and the one that is pointed at plays.
 
 import { Camera } from "./camera.js";
 import { Connection } from "./connection.js";
@@ -9,6 +9,8 @@ import { colours, element, one, paragraphs, wantsCalm } from "./words.js";
 
 // a still shows a scenario after so many steps, when something has happened
 const STILL_STEPS = 120;
+// how long a card plays before it is the next one's turn, in ms
+const TURN = 5000;
 const WIDE = 320, TALL = 200;
 
 export class Gallery {
@@ -68,7 +70,14 @@ export class Gallery {
 
   takeStills() {
     this.preview?.end();
-    this.preview = new Preview(() => this.cards.find((card) => !card.isDrawn && card.box.getBoundingClientRect().top < 2 * innerHeight));
+    const edges = (card) => card.box.getBoundingClientRect();
+    const stillOf = () => this.cards.find((card) => !card.isDrawn && edges(card).top < 2 * innerHeight);
+    const after = (last) => {
+      const from = this.cards.indexOf(last) + 1;
+      const inTurn = [...this.cards.slice(from), ...this.cards.slice(0, from)];
+      return inTurn.find((card) => edges(card).top >= 0 && edges(card).top < innerHeight);
+    };
+    this.preview = new Preview(stillOf, after);
     this.place.onscroll = () => this.preview?.next();
   }
 
@@ -80,8 +89,9 @@ export class Gallery {
 
 /** One connection, lent to a card at a time. */
 class Preview {
-  constructor(nextCard) {
-    Object.assign(this, { nextCard, card: null, plays: false, scene: null, frame: null, obstacles: [], waits: false });
+  /** `nextCard()` is one that needs a still, `after(card)` the one whose turn it is to play. */
+  constructor(nextCard, after) {
+    Object.assign(this, { nextCard, after, card: null, plays: false, scene: null, frame: null, obstacles: [], waits: false, last: null, turn: 0 });
     this.camera = new Camera();
     this.connection = new Connection({
       state: () => {},
@@ -96,14 +106,31 @@ class Preview {
     });
   }
 
-  end() { this.connection.end(); }
+  end() { clearTimeout(this.turn); this.connection.end(); }
 
   open(card, plays) {
+    // a frame that was not drawn in time is seen too: the server sends none while two are unseen
+    if (this.frame) this.connection.send({ do: "seen", number: this.frame.number });
     Object.assign(this, { card, plays, scene: null, frame: null, obstacles: [] });
     if (card) this.connection.send({ do: "open", ...card.what });
   }
 
-  next() { if (this.card === null && this.connection.isOpen) this.open(this.nextCard() ?? null, false); }
+  next() {
+    if (this.card !== null || !this.connection.isOpen) return;
+    const still = this.nextCard() ?? null;
+    this.open(still, false);
+    clearTimeout(this.turn);
+    // who scrolls or points finds the wall as it was: a turn begins when nothing else has for a while
+    if (still === null && !wantsCalm()) this.turn = setTimeout(() => this.takeTurn(), TURN / 10);
+  }
+
+  takeTurn() {
+    const card = this.card === null ? this.after(this.last) : undefined;
+    if (!card) return;
+    this.last = card;
+    this.open(card, true);
+    this.turn = setTimeout(() => this.stop(card), TURN);
+  }
 
   done() {
     if (this.card) this.card.isDrawn = true;
@@ -112,11 +139,13 @@ class Preview {
   }
 
   play(card) {
+    clearTimeout(this.turn);
     if (this.card === card && this.scene) { this.plays = true; this.connection.send({ do: "play" }); } else this.open(card, true);
   }
 
   stop(card) {
     if (this.card !== card || !this.plays) return;
+    clearTimeout(this.turn);
     this.connection.send({ do: "pause" });
     this.done();
   }

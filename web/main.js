@@ -171,7 +171,7 @@ const ICONS = { pause: "M3.5 2.5h3v11h-3zM9.5 2.5h3v11h-3z", play: "M4 2.5v11L13
 
 function showStatus() {
   const pane = lead(), status = pane?.status ?? {};
-  const way = clock ? clock.way : status.playing ? (isRun() && status.rate < 0 ? -1 : 1) : 0;
+  const way = wayNow();
   for (const [name, sign, word] of [["play", 1, "Play"], ["reverse", -1, "Play backwards"]]) {
     button(name).setAttribute("aria-pressed", String(way === sign));
     button(name).setAttribute("aria-label", way === sign ? "Pause" : word);
@@ -251,6 +251,12 @@ const play = (way) => {
     toAll({ do: "play" });
   } else toAll({ do: status.playing ? "pause" : "play" });
 };
+/** The way time goes: forwards, backwards, or not. */
+const wayNow = () => {
+  if (clock) return clock.way;
+  const status = lead()?.status ?? {};
+  return status.playing ? (isRun() && status.rate < 0 ? -1 : 1) : 0;
+};
 const step = (count) => { if (clock) clock.step(count); else if (isRun() || count > 0) toAll({ do: "step", count }); };
 const seek = oncePerPicture((frame) => { if (clock) clock.seekFrame(frame); else toAll({ do: "seek", frame }); });
 const seekTime = (t) => { if (scene()) seek(clamp(frameOf(t / scene().step), 0, Math.max(0, scene().frames - 1))); };
@@ -297,7 +303,7 @@ at.colour.addEventListener("change", () => {
 // ------------------------------------------------ keys
 
 const KEYS = [
-  ["Space", "play or pause", { " ": () => acts.play() }],
+  ["Space", "play or pause", { " ": () => play(wayNow() || 1) }],
   ["B", "play a run backwards", { b: () => isRun() && acts.reverse() }],
   ["→ and ←", "one step on; in a run, back as well", { ArrowRight: () => step(1), ArrowLeft: () => step(-1) }],
   ["Page Up, Page Down", "ten steps", { PageDown: () => step(10), PageUp: () => step(-10) }],

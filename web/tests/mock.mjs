@@ -182,7 +182,7 @@ class Session {
 
   begin(seed) {
     const { plan } = this;
-    Object.assign(this, { seed, flock: new Flock(plan, seed), frameAt: 0, playing: false, unseen: 0 });
+    Object.assign(this, { seed, flock: new Flock(plan, seed), frameAt: 0, playing: false });
     const axes = Array(plan.dimensions).fill(0);
     this.history = [];
     const all = [];
@@ -214,6 +214,9 @@ class Session {
 
   /** Sends the frame that is shown, its explanation, and the status. */
   tell() {
+    // as the server does: no frame while two are unseen, and the last one as soon as there is room
+    this.stale = this.unseen >= 2;
+    if (this.stale) return;
     if (this.plan.run) [this.flock.step, this.flock.place, this.flock.heading] = this.history[this.frameAt];
     this.number += 1;
     this.unseen += 1;
@@ -260,7 +263,7 @@ class Session {
     }
     if (what === "focus") { this.focus = message.agent; if (message.agent !== null) this.say({ is: "explain", explanation: this.flock.explain(message.agent) }); }
     if (what === "save") this.say({ is: "file", text: `title = "${this.plan.title}"\nspeed = ${this.flock.values["group.fish.model.speed"]}\n` });
-    if (what === "seen") this.unseen = Math.max(0, this.unseen - 1);
+    if (what === "seen") { this.unseen = this.number - message.number; if (this.stale) this.tell(); }
     this.timer = setInterval(() => this.tick(), 1000 / (Math.abs(this.rate) || 120));
   }
 }

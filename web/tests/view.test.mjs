@@ -279,6 +279,12 @@ describe("a run", () => {
     assert.equal(await page.locator("[data-do=reverse]").getAttribute("aria-label"), "Pause");
     await messages.receives("status", () => page.keyboard.press("b"));
     await page.locator("[data-do=reverse][aria-pressed=false]").waitFor();
+    await page.keyboard.press("b");
+    await page.locator("[data-do=reverse][aria-pressed=true]").waitFor();
+    // Space pauses whichever way time goes
+    await page.keyboard.press(" ");
+    await page.locator("[data-do=reverse][aria-pressed=false]").waitFor();
+    await page.locator("[data-do=play][aria-pressed=false]").waitFor();
     await page.keyboard.press("End");
     await atStep(page, stepOf(last));
     await page.keyboard.press("Home");
@@ -334,6 +340,30 @@ describe("the gallery", () => {
     await page.locator(".card").nth(2).waitFor();
     await messages.sends("play", () => page.locator(".card").nth(2).hover());
     await messages.sends("pause", () => page.mouse.move(1, 1));
+  }));
+
+  test("frames that come after a card was left do not keep back those of the next", () => {
+    // a page that draws slowly has two frames before it when a card is left
+    const prepare = () => { const soon = requestAnimationFrame; window.requestAnimationFrame = (act) => setTimeout(() => soon(act), 150); };
+    return opened({ named: [], reducedMotion: "no-preference", prepare }, async ({ page }) => {
+      for (const [at, card] of (await page.locator(".card", { hasText: /\d agents/ }).all()).entries()) {
+        await card.hover();
+        const picture = () => card.locator("canvas").evaluate((canvas) => canvas.toDataURL());
+        const before = await picture();
+        for (let tries = 0; await picture() === before; tries += 1) {
+          assert.ok(tries < 100, `card ${at} does not play`);
+          await page.waitForTimeout(50);
+        }
+      }
+    });
+  });
+
+  test("cards play in turn while nobody points at one", () => opened({ named: [], reducedMotion: "no-preference" }, async ({ page, messages }) => {
+    await page.locator(".card").nth(2).waitFor();
+    const first = await messages.sends("play", () => {});
+    assert.equal(first.do, "play");
+    await messages.sends("pause", () => {});
+    await messages.sends("play", () => {});
   }));
 });
 

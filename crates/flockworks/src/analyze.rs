@@ -256,20 +256,18 @@ fn summary(one: &Analysed, several: bool, out: &mut dyn Write) -> Result<(), Fau
     if several {
         writeln!(out, "{}", one.recording.name)?;
     }
+    let (gaps, smooth) = (cleaned.asked.interpolate.is_some(), cleaned.asked.smooth.is_some());
     let counts = [
-        (cleaned.filled.1, format!("gaps filled, {} positions", cleaned.filled.0)),
-        (cleaned.left, "gaps left: they are too long".to_owned()),
-        (cleaned.smoothed.0, "positions smoothed".to_owned()),
-        (cleaned.smoothed.1, "positions not smoothed: in stretches shorter than the window".to_owned()),
+        (gaps, cleaned.filled.1, format!("gaps filled, {} positions", cleaned.filled.0)),
+        (gaps, cleaned.left, "gaps left: they are too long".to_owned()),
+        (smooth, cleaned.smoothed.0, "positions smoothed".to_owned()),
+        (smooth, cleaned.smoothed.1, "positions not smoothed: in stretches shorter than the window".to_owned()),
     ];
-    for (count, what) in counts.iter().filter(|(count, _)| *count > 0) {
+    for (_, count, what) in counts.iter().filter(|(asked, ..)| *asked) {
         writeln!(out, "{count} {what}")?;
     }
-    for flag in [lab::tracks::clean::Flag::ImpossibleSpeed, lab::tracks::clean::Flag::IdentitySwap] {
-        let count = cleaned.flags.iter().filter(|(.., other)| *other == flag).count();
-        if count > 0 {
-            writeln!(out, "{count} positions flagged: {}", flag.word().replace('_', " "))?;
-        }
+    for (flag, count) in cleaned.flag_counts() {
+        writeln!(out, "{count} positions flagged: {}", flag.word().replace('_', " "))?;
     }
     let short = lab::report::of_run::short;
     let flagged = one.unflagged.is_some();

@@ -20,6 +20,7 @@ pub mod step;
 pub mod table;
 pub mod taxonomy;
 pub mod terms;
+pub mod usage;
 pub mod view;
 pub mod workloads;
 

@@ -1,8 +1,7 @@
 //! The command line `flockworks`.
 
-use clap::Parser;
-use flockworks::Fault;
-use flockworks::command::{Line, run};
+use flockworks::command::run;
+use flockworks::{Fault, usage};
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -12,7 +11,16 @@ fn main() -> ExitCode {
         let _ = writeln!(std::io::stderr(), "flockworks: this is our fault: {panic}");
         std::process::exit(70);
     }));
-    let line = Line::parse();
+    let line = match usage::read() {
+        Ok(line) => line,
+        Err(error) => {
+            match usage::mistake(&error) {
+                Some(fault) => drop(writeln!(std::io::stderr(), "flockworks: {fault}")),
+                None => drop(error.print()),
+            }
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     let done = run(&line, &mut out);
     let flushed = out.flush().map_err(Fault::from);

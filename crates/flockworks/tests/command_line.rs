@@ -176,6 +176,12 @@ fn wrong_options_are_refused() {
     assert_eq!(flockworks(&["stepp", "x.json"]).code, Some(2));
     assert_eq!(flockworks(&["step", "x.json", "--stepz", "2"]).code, Some(2));
     refused(&["models", "viksek_1995"], &["viksek_1995", "did you mean `vicsek_1995`"]);
+    refused(&["run", "a.toml", "--seed", "-1"], &["`--seed <N>` takes a whole number, 0 or more, found `-1`"]);
+    refused(&["run", "a.toml", "--seed", "soon"], &["`--seed <N>` takes a whole number", "found `soon`"]);
+    refused(&["run", "a.toml", "--sed", "1"], &["`--sed` is not known here; did you mean `--seed`?"]);
+    refused(&["run"], &["`<FILE>` is missing"]);
+    refused(&["rn", "a.toml"], &["no command is called `rn`; did you mean `run`?"]);
+    refused(&["analyze", "a.csv", "--scale", "-1"], &["`scale` must be more than 0"]);
     refused(&["bench", "W11"], &["W11", "did you mean `W1`"]);
     refused(&["bench", "--model", "viksek_1995"], &["did you mean `vicsek_1995`"]);
 }

@@ -225,6 +225,11 @@ fn mistakes_are_shown_at_their_place() {
         (&[("from = 10", "from = 40")], &["after the end"]),
         (&[("[reading.order]", "[reading.trial]")], &["a column of the tables is called `trial` already"]),
         (&[("values = [0, 2, 4]", "values = []")], &["has no levels"]),
+        (&[("values = [0, 2, 4]", "values = [0, 2, 0]")], &["`noise` has the level 0 twice"]),
+        (
+            &[("values = [0, 2, 4]\n", "values = [0, 2, 4]\nlevel.\"2.5\" = { \"group.points.count\" = 30 }\n")],
+            &["`noise` has no level `2.5`", "did you mean `2`?"],
+        ),
         (&[("[scenario]", "[senario]")], &["unknown key `senario`"]),
         (&[("[factor.noise]", "design = \"zip\"\n[factor.noise]")], &["`size` has 2 levels and `noise` 3"]),
         (&[("values = [0, 2, 4]", "steps = { from = 0, to = -1, by = 1 }")], &["lead nowhere"]),

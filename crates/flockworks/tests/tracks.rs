@@ -180,6 +180,14 @@ fn what_is_wrong_is_said_in_a_sentence_and_nothing_is_left() {
             vec!["analyze", table, "--fps", "1", "--set", "measure.parameters.eps=-1", "--metrics", "dbscan_clusters"],
             "eps",
         ),
+        (
+            vec!["analyze", table, "--fps", "1", "--scale", "nan", "--out", out],
+            "`scale` must be more than 0, found NaN",
+        ),
+        (
+            vec!["analyze", table, "--fps", "1", "--layout", "animalta", "--columns", "x=x", "--out", out],
+            "it takes frame",
+        ),
         (vec!["analyze", "nowhere.csv", "--out", out], "cannot read"),
         (vec!["analyze", table, table, "--fps", "1", "--out", out], "two recordings are called `fish`"),
     ] {
@@ -187,4 +195,34 @@ fn what_is_wrong_is_said_in_a_sentence_and_nothing_is_left() {
         assert!(error.contains(what), "{arguments:?}: {error}");
         assert!(!Path::new(out).exists(), "{arguments:?} left a folder");
     }
+}
+
+#[test]
+fn what_cleaning_was_asked_for_is_counted_and_both_averages_are_told() {
+    let folder = fresh("cleaned");
+    std::fs::create_dir_all(&folder).unwrap();
+    let row = |k: i64, who: i64| format!("{k},{who},{},{}\n", if (k, who) == (12, 0) { 90.0 } else { k as f64 }, who);
+    let rows: String = (0..40).flat_map(|k| (0..3).map(move |who| (k, who))).map(|(k, who)| row(k, who)).collect();
+    let table = folder.join("fish.csv");
+    std::fs::write(&table, format!("frame,id,x,y\n{rows}")).unwrap();
+    let (table, out) = (table.to_str().unwrap(), folder.join("out"));
+    let clean = ["--greatest-speed", "2", "--swaps", "--interpolate", "3"];
+    let asked = [&["analyze", table, "--fps", "1", "--out", out.to_str().unwrap()][..], &clean].concat();
+    let told = well(&asked);
+    for what in ["0 gaps filled", "1 positions flagged: impossible speed", "0 positions flagged: identity swap"] {
+        assert!(told.contains(what), "{what}: {told}");
+    }
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("flags.csv") && page.contains("fish without flagged"));
+    let over = Table::open(&out.join("over_time.parquet")).unwrap();
+    let columns: Vec<usize> =
+        ["metric", "flagged", "field", "value", "label"].map(|name| over.column(name).unwrap()).to_vec();
+    let read = over.read(0, &columns).unwrap();
+    let greatest = |flagged: &str| {
+        let is =
+            |row: &usize| [(0, "speed"), (1, flagged), (2, "max")].iter().all(|&(k, word)| read[k].text(*row) == word);
+        let rows: Vec<usize> = (0..read[0].len()).filter(is).collect();
+        rows.iter().map(|&row| read[3].number(row)).fold(0.0, f64::max)
+    };
+    assert!((greatest("kept") - 79.0).abs() < 1e-9 && (greatest("left_out") - 1.0).abs() < 1e-9);
 }

@@ -174,6 +174,15 @@ fn it_serves_its_page_to_this_machine_alone() {
 }
 
 #[test]
+fn other_machines_are_let_in_where_that_is_told() {
+    let server = served(&["--listen", "0.0.0.0"]);
+    assert!(got(server.port, "/", "laboratory.example").starts_with("HTTP/1.1 200"));
+    // still only its own page opens the socket, under the name by which it was asked for
+    assert!(socket(server.port, &format!("http://127.0.0.1:{}", server.port)).is_ok());
+    assert!(socket(server.port, "http://evil.example").is_err_and(|status| status.contains("403")));
+}
+
+#[test]
 fn a_session_plays_and_changes_a_simulation() {
     let server = served(&[]);
     let mut socket = socket(server.port, &format!("http://127.0.0.1:{}", server.port)).unwrap();

@@ -56,6 +56,8 @@ pub struct Tracks<const D: usize> {
     position: [Vec<f64>; D],
     velocity: [Vec<f64>; D],
     body: Option<[Vec<f64>; D]>,
+    /// Whether the velocities were told; else they are differences.
+    told: bool,
 }
 
 impl<const D: usize> Tracks<D> {
@@ -90,6 +92,7 @@ impl<const D: usize> Tracks<D> {
             first: Vec::new(),
             individual,
             position,
+            told: velocity.is_some(),
             velocity: velocity.unwrap_or_else(|| core::array::from_fn(|_| Vec::new())),
             body,
         };
@@ -189,6 +192,10 @@ impl<const D: usize> Tracks<D> {
     /// Velocities along an axis, `[rows]`, NaN where unknown.
     pub fn velocities(&self, axis: usize) -> &[f64] {
         &self.velocity[axis]
+    }
+    /// Whether the rows told velocities; else they are differences of positions.
+    pub fn tells_velocities(&self) -> bool {
+        self.told
     }
     /// Whether directions of bodies were given.
     pub fn has_bodies(&self) -> bool {

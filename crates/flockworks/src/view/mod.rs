@@ -19,7 +19,7 @@ use clap::Args;
 use serde_json::json;
 use session::{Outgoing, Session};
 use std::io::Write;
-use std::net::{Ipv4Addr, SocketAddr};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -29,9 +29,12 @@ pub struct ViewOptions {
     /// A scenario or study file, or the folder of a complete run; two of them are shown side by side. Without any, the gallery.
     #[arg(num_args = 0..=2)]
     pub what: Vec<PathBuf>,
-    /// Port on 127.0.0.1. Left out, a free one is chosen.
+    /// Port. Left out, a free one is chosen.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port: u16,
+    /// Address to listen on. With any but a loopback one, whoever reaches it can see and change what is shown.
+    #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
+    pub listen: IpAddr,
     /// Open the page in the browser.
     #[arg(long)]
     pub open: bool,
@@ -60,6 +63,8 @@ pub(crate) struct Shared {
     given: Vec<Given>,
     threads: usize,
     port: u16,
+    /// Whether the user let other machines in.
+    open_to_others: bool,
 }
 
 /// Largest message from the page, in bytes.
@@ -97,18 +102,23 @@ pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
 }
 
 async fn serve(options: &ViewOptions, given: Vec<Given>, out: &mut dyn Write) -> Result<(), Fault> {
-    let address = SocketAddr::from((Ipv4Addr::LOCALHOST, options.port));
+    let address = SocketAddr::from((options.listen, options.port));
     let listener = tokio::net::TcpListener::bind(address)
         .await
         .map_err(|error| Fault::Input(format!("cannot listen on {address}: {error}; choose another --port")))?;
     let port = listener.local_addr().map_or(options.port, |address| address.port());
-    let address = format!("http://127.0.0.1:{port}/");
+    let named = if options.listen.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { options.listen };
+    let address = format!("http://{}/", SocketAddr::from((named, port)));
     writeln!(out, "{address}\nCtrl-C ends it")?;
+    let open_to_others = !options.listen.is_loopback();
+    if open_to_others {
+        writeln!(out, "Whoever reaches {} at port {port} can see and change what is shown.", options.listen)?;
+    }
     out.flush()?;
     if options.open {
         open(&address, out)?;
     }
-    let shared = Arc::new(Shared { given, threads: options.threads, port });
+    let shared = Arc::new(Shared { given, threads: options.threads, port, open_to_others });
     let router = Router::new()
         .route("/", get(page))
         .route("/gallery.json", get(gallery))
@@ -138,17 +148,27 @@ fn open(address: &str, out: &mut dyn Write) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Whether a request comes to this server by a loopback name, so that no other site can pass its name off for it.
-fn local(headers: &HeaderMap, port: u16) -> bool {
+/// Whether a request comes to this server by a loopback name, so that no other site can pass its name off for it; by any
+/// name where other machines are let in.
+fn admitted(headers: &HeaderMap, shared: &Shared) -> bool {
     let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
-    host.is_some_and(|host| [format!("127.0.0.1:{port}"), format!("localhost:{port}")].iter().any(|own| own == host))
+    let own = own_hosts(shared.port);
+    host.is_some_and(|host| shared.open_to_others || own.iter().any(|own| own == host))
+}
+
+fn own_hosts(port: u16) -> [String; 3] {
+    [format!("127.0.0.1:{port}"), format!("localhost:{port}"), format!("[::1]:{port}")]
 }
 
 /// Whether a page of this server opened the socket.
-fn own_page(headers: &HeaderMap, port: u16) -> bool {
-    let origin = headers.get(header::ORIGIN).and_then(|origin| origin.to_str().ok());
-    let own = [format!("http://127.0.0.1:{port}"), format!("http://localhost:{port}")];
-    origin.is_some_and(|origin| own.iter().any(|own| own == origin))
+fn own_page(headers: &HeaderMap, shared: &Shared) -> bool {
+    let text = |name| headers.get(name).and_then(|value: &HeaderValue| value.to_str().ok());
+    let from = text(header::ORIGIN).and_then(|origin| origin.strip_prefix("http://"));
+    let own = own_hosts(shared.port);
+    // where others are let in, the page comes from wherever the browser found it
+    let same =
+        |from: &str| own.iter().any(|own| own == from) || shared.open_to_others && text(header::HOST) == Some(from);
+    from.is_some_and(same)
 }
 
 fn refused() -> Response {
@@ -165,14 +185,14 @@ fn file(kind: &'static str, bytes: &'static [u8]) -> Response {
 }
 
 async fn page(State(shared): State<Arc<Shared>>, headers: HeaderMap) -> Response {
-    if !local(&headers, shared.port) {
+    if !admitted(&headers, &shared) {
         return refused();
     }
     file("text/html; charset=utf-8", assets::PAGE)
 }
 
 async fn asset(State(shared): State<Arc<Shared>>, headers: HeaderMap, Part(name): Part<String>) -> Response {
-    if !local(&headers, shared.port) {
+    if !admitted(&headers, &shared) {
         return refused();
     }
     match assets::FILES.iter().find(|(known, ..)| *known == name) {
@@ -182,7 +202,7 @@ async fn asset(State(shared): State<Arc<Shared>>, headers: HeaderMap, Part(name)
 }
 
 async fn gallery(State(shared): State<Arc<Shared>>, headers: HeaderMap) -> Response {
-    if !local(&headers, shared.port) {
+    if !admitted(&headers, &shared) {
         return refused();
     }
     let built = lab::gallery::LIST.iter().filter_map(|built| {
@@ -199,7 +219,7 @@ async fn gallery(State(shared): State<Arc<Shared>>, headers: HeaderMap) -> Respo
 }
 
 async fn socket(State(shared): State<Arc<Shared>>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
-    if !local(&headers, shared.port) || !own_page(&headers, shared.port) {
+    if !admitted(&headers, &shared) || !own_page(&headers, &shared) {
         return refused();
     }
     upgrade.max_message_size(LARGEST).max_frame_size(LARGEST).on_upgrade(|socket| talk(socket, shared))

@@ -43,7 +43,7 @@ pub(crate) fn words(all: impl IntoIterator<Item = String>) -> Values {
             known.push(word);
             known.len() - 1
         });
-        place as u16
+        place as u32
     };
     let places = all.into_iter().map(place).collect();
     Values::Word(places, Arc::new(known))

@@ -106,7 +106,7 @@ fn begun(variants: &Variants, of: &[usize]) -> Filled {
         } else {
             let words = factor.levels.iter().map(|level| level.text.clone()).collect();
             let heading = Heading::new(&factor.name, "", &factor.about, Kind::Word);
-            (heading, Values::Word(levels.map(|level| level as u16).collect(), Arc::new(words)))
+            (heading, Values::Word(levels.map(|level| level as u32).collect(), Arc::new(words)))
         }
     };
     variants.factors.iter().enumerate().map(column).unzip()
@@ -240,7 +240,7 @@ fn contest(variants: &Variants, contests: &[Contest]) -> Filled {
         names.iter().position(|own| own == name).unwrap_or_else(|| {
             names.push(name.clone());
             names.len() - 1
-        }) as u16
+        }) as u32
     };
     let who = rows.iter().map(|(_, who, _)| place(&who.name)).collect();
     add(&mut table, Heading::new("who", "", "The contender.", Kind::Word), Values::Word(who, Arc::new(names)));

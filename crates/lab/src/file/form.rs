@@ -109,6 +109,8 @@ pub struct Variant {
 pub struct Desk {
     /// What was found.
     pub problems: Vec<Problem>,
+    /// Places of values that were put under a new name, each with the names that were there already.
+    pub new_names: Vec<(Span, String)>,
 }
 
 impl Desk {
@@ -150,7 +152,8 @@ impl Desk {
     pub fn need<'a>(&mut self, at: &Span, entries: &'a [Entry], key: &str) -> Option<&'a Node> {
         let found = entries.iter().find(|e| e.key == key).map(|e| &e.node);
         if found.is_none() {
-            self.problem(at, format!("`{key}` is missing"), format!("`{key}` must be given here"), "");
+            let help = self.new_names.iter().find(|(place, _)| place == at).map_or("", |(_, help)| help).to_owned();
+            self.problem(at, format!("`{key}` is missing"), format!("`{key}` must be given here"), help);
         }
         found
     }

@@ -128,6 +128,34 @@ impl Node {
         }
         span
     }
+    /// The table on the way of a path that is not there yet, and the names of those beside which it would be.
+    pub fn new_name(&self, path: &str) -> Option<(String, Vec<String>)> {
+        let (first, rest) = path.split_once('.')?;
+        let Tree::Table(entries) = &self.tree else { return None };
+        match self.get(first) {
+            Some(below) => below.new_name(rest),
+            None => Some((first.to_owned(), entries.iter().map(|entry| entry.key.clone()).collect())),
+        }
+    }
+    /// The same value, read from a text that began `by` bytes later.
+    fn moved(mut self, by: usize) -> Self {
+        fn move_by(span: &mut Span, by: usize) {
+            span.bytes = span.bytes.start + by..span.bytes.end + by;
+        }
+        move_by(&mut self.span, by);
+        match &mut self.tree {
+            Tree::List(list) => *list = core::mem::take(list).into_iter().map(|node| node.moved(by)).collect(),
+            Tree::Table(entries) => {
+                for entry in entries.iter_mut() {
+                    move_by(&mut entry.span, by);
+                }
+                let moved = |entry: Entry| Entry { node: entry.node.moved(by), ..entry };
+                *entries = core::mem::take(entries).into_iter().map(moved).collect();
+            }
+            _ => {}
+        }
+        self
+    }
     /// Puts a value at a path, making tables on the way.
     ///
     /// # Errors
@@ -203,7 +231,15 @@ pub fn parse_value(sources: &Sources, source: usize, from: usize, problems: &mut
     let right = text.get(from..).unwrap_or("");
     let span = Span { source, bytes: from..text.len() };
     match DeValue::parse(right) {
-        Ok(value) => Node { tree: of_value(value.get_ref(), &span, source, problems), span },
+        Ok(value) => {
+            // the parser counts from the value, and a caret stands below the whole text
+            let (own, before) = (Span { source, bytes: 0..right.len() }, problems.len());
+            let node = Node { tree: of_value(value.get_ref(), &own, source, problems), span: own };
+            for problem in &mut problems[before..] {
+                problem.span.bytes = problem.span.bytes.start + from..problem.span.bytes.end + from;
+            }
+            node.moved(from)
+        }
         Err(_) if !right.is_empty() && right.chars().all(|c| c.is_alphanumeric() || "_-/. ".contains(c)) => {
             Node { tree: Tree::Text(right.to_owned()), span }
         }
@@ -312,6 +348,28 @@ mod tests {
         let (node, problems) = read("a = \nb = 2\nc = 1979-05-27\nd = ]\n");
         assert!(problems.len() >= 3, "{problems:?}");
         assert_eq!(node.get("b").unwrap().tree, Tree::Whole(2));
+    }
+
+    #[test]
+    fn a_value_behind_its_path_knows_its_place_in_the_whole_text() {
+        let mut sources = Sources::default();
+        let text = "a.b={ c = [1, 1979-05-27] }";
+        let source = sources.add("--set", text);
+        let mut problems = Vec::new();
+        let node = parse_value(&sources, source, 4, &mut problems);
+        assert_eq!(&text[node.place("c.0").bytes], "1");
+        assert_eq!(&text[node.place("c").bytes], "[1, 1979-05-27]");
+        assert_eq!(&text[problems[0].span.bytes.clone()], "1979-05-27");
+    }
+
+    #[test]
+    fn a_new_name_is_told_from_those_beside_it() {
+        let (node, _) = read("[group.fish]\ncount = 1\n[group.bird]\ncount = 2\n");
+        let beside = Some(("fsh".to_owned(), vec!["fish".to_owned(), "bird".to_owned()]));
+        assert_eq!(node.new_name("group.fsh.count"), beside);
+        assert_eq!(node.new_name("group.fish.model.x"), Some(("model".to_owned(), vec!["count".to_owned()])));
+        assert_eq!(node.new_name("group.fish.new"), None);
+        assert_eq!(node.new_name("group.fish.count"), None);
     }
 
     #[test]

@@ -239,7 +239,7 @@ impl Shown for Recorded {
         let label = self.label.map(|(_, _, names)| {
             move |agent: usize| match columns.last() {
                 Some(Values::Word(places, words)) => {
-                    let word = words.get(usize::from(places[self.row(agent)]));
+                    let word = words.get(places[self.row(agent)] as usize);
                     let at = word.and_then(|word| names.iter().position(|name| name == word));
                     at.map_or(255, |at| at.min(254) as u8)
                 }

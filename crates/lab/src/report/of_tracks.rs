@@ -3,7 +3,6 @@
 use super::of_run::{DOWNLOADED, DRAWN, REPLAYED, REPLAYED_FRAMES, ordinal, paragraphs, short};
 use super::{Axis, Border, Fact, Figure, Line, Lines, Moment, Page, Replay, Scenes, Seen, Stage, Table as Download};
 use crate::tracks::analysis::{Analysed, Average, average};
-use crate::tracks::clean::Flag;
 use crate::tracks::folder::Request;
 use crate::tracks::tables;
 use crate::with_tracks;
@@ -41,6 +40,13 @@ pub fn page(request: &Request<'_>, all: &[Analysed]) -> Page {
         about: "The average of every metric over frames, with and without what was flagged.".into(),
         csv: summary_csv(all),
     }];
+    if all.iter().any(|one| !one.cleaned.flags.is_empty()) {
+        downloads.push(Download {
+            file: "flags.csv".into(),
+            about: "The positions that are flagged, and why.".into(),
+            csv: flags_csv(all),
+        });
+    }
     // writing to memory cannot fail; where it did, the table is left out
     if values as u64 * 10 <= DOWNLOADED && tables::write_csv(all, &mut csv).is_ok() {
         downloads.push(Download {
@@ -113,23 +119,20 @@ fn methods(one: &Analysed, several: bool) -> Vec<String> {
     let whose = if several { format!("Recording {}: ", one.recording.name) } else { "Read: ".to_owned() };
     let mut paragraphs = vec![format!("{whose}{}.", lines.join("; "))];
     let mut done = Vec::new();
-    if cleaned.filled.1 + cleaned.left > 0 {
+    if cleaned.asked.interpolate.is_some() {
         done.push(format!(
             "{} gaps were filled by straight lines ({} positions), {} were too long",
             cleaned.filled.1, cleaned.filled.0, cleaned.left
         ));
     }
-    if cleaned.smoothed.0 + cleaned.smoothed.1 > 0 {
+    if cleaned.asked.smooth.is_some() {
         done.push(format!(
             "{} positions were smoothed by a Savitzky-Golay filter; {} lie in stretches shorter than its window",
             cleaned.smoothed.0, cleaned.smoothed.1
         ));
     }
-    for flag in [Flag::ImpossibleSpeed, Flag::IdentitySwap] {
-        let count = cleaned.flags.iter().filter(|(.., other)| *other == flag).count();
-        if count > 0 {
-            done.push(format!("{count} positions are flagged as {}", flag.word().replace('_', " ")));
-        }
+    for (flag, count) in cleaned.flag_counts() {
+        done.push(format!("{count} positions are flagged as {}", flag.word().replace('_', " ")));
     }
     if done.is_empty() {
         done.push("nothing was cleaned".to_owned());
@@ -281,6 +284,10 @@ fn over_time_charts(all: &[Analysed]) -> Vec<Figure> {
         let Some(up) = (last + 1..card.fields.len()).find(|&k| card.fields[k].kind == measure::Kind::Number) else {
             continue;
         };
+        // a row for each individual is no line over time
+        if card.fields[..up].iter().any(|field| field.kind == measure::Kind::Individual) {
+            continue;
+        }
         let (x, y) = (card.fields[across[0]], card.fields[up]);
         let mut by_unit: Vec<((String, String), Vec<&Analysed>)> = Vec::new();
         for one in all.iter().filter(|one| listing(one, card).is_some_and(|listing| listing.len() > 1)) {
@@ -291,15 +298,21 @@ fn over_time_charts(all: &[Analysed]) -> Vec<Figure> {
             }
         }
         for ((x_unit, y_unit), of) in by_unit {
-            let line = |one: &&Analysed| {
-                let columns = listing(one, card).map_or(&[][..], |listing| &listing.columns);
+            let line = |(name, columns): (String, &[Vec<f64>])| {
                 let mean = |row: usize| across.iter().map(|&k| columns[k][row]).sum::<f64>() / across.len() as f64;
                 Line {
-                    name: one.recording.name.clone(),
+                    name,
                     x: (0..columns[up].len()).map(mean).collect(),
                     y: columns[up].iter().map(|value| Some(*value).filter(|value| value.is_finite())).collect(),
                 }
             };
+            let shown = of.iter().flat_map(|one| {
+                let ours = tables::over_time_of(one).filter(|(_, (own, _))| own.id == card.id);
+                ours.map(|(flagged, (_, listing))| {
+                    let without = if flagged == 1 { " without flagged" } else { "" };
+                    (format!("{}{without}", one.recording.name), listing.columns.as_slice())
+                })
+            });
             let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
             let label = if across.len() > 1 { "distance".to_owned() } else { x.name.replace('_', " ") };
             figures.push(Figure::Lines(Lines {
@@ -308,7 +321,7 @@ fn over_time_charts(all: &[Analysed]) -> Vec<Figure> {
                 about: format!("{}. {}.", words(card.definition), words(card.variant)),
                 x: Axis { label: if label == "t" { "time".into() } else { label }, unit: x_unit, range: None },
                 y: Axis { label: y.name.replace('_', " "), unit: y_unit, range: None },
-                lines: of.iter().map(line).collect(),
+                lines: shown.map(line).collect(),
             }));
         }
     }
@@ -324,16 +337,19 @@ fn over_time_tables(all: &[Analysed]) -> Vec<Download> {
     let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
     let mut downloads = Vec::new();
     for card in measure::over_time::LIST {
-        let with = || all.iter().filter_map(|one| Some((one, listing(one, card)?)));
-        let rows: usize = with().map(|(_, listing)| listing.len()).sum();
+        let with = || {
+            let of = |one| tables::over_time_of(one).filter(|(_, (own, _))| own.id == card.id).map(move |of| (one, of));
+            all.iter().flat_map(of)
+        };
+        let rows: usize = with().map(|(_, (_, (_, listing)))| listing.len()).sum();
         if rows == 0 || (rows * card.fields.len() * 10) as u64 > DOWNLOADED {
             continue;
         }
         let names: Vec<&str> = card.fields.iter().map(|field| field.name).collect();
-        let mut csv = format!("recording,{}\n", names.join(","));
-        for (one, listing) in with() {
+        let mut csv = format!("recording,flagged,{}\n", names.join(","));
+        for (one, (flagged, (_, listing))) in with() {
             for row in 0..listing.len() {
-                csv += &quoted(&one.recording.name);
+                csv += &format!("{},{}", quoted(&one.recording.name), tables::FLAGGED[flagged as usize]);
                 for (field, column) in card.fields.iter().zip(&listing.columns) {
                     let label = tables::label(one, field, column[row]);
                     csv.push(',');
@@ -371,6 +387,23 @@ fn summary_csv(all: &[Analysed]) -> String {
                 a.frames
             );
         }
+    }
+    text
+}
+
+/// What is flagged as CSV.
+fn flags_csv(all: &[Analysed]) -> String {
+    let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
+    let mut text = "recording,frame,t,individual,flag\n".to_owned();
+    for one in all {
+        with_tracks!(&one.recording.table, tracks => {
+            for &(row, frame, flag) in &one.cleaned.flags {
+                let (number, time) = (tracks.frames()[frame], tracks.times()[frame]);
+                let who = &tracks.names()[tracks.individuals()[row] as usize];
+                let recording = quoted(&one.recording.name);
+                text += &format!("{recording},{number},{time},{},{}\n", quoted(who), flag.word());
+            }
+        });
     }
     text
 }

@@ -28,7 +28,7 @@ const WAITING: usize = 3;
 const BLOCK_ROWS: usize = 131_072;
 
 /// Something that happened: step, time, number of its name, agent, other.
-pub(super) type Event = (u64, f64, u16, i64, i64);
+pub(super) type Event = (u64, f64, u32, i64, i64);
 
 /// What the engine tells the recorder.
 pub(super) enum Message<R, const D: usize> {
@@ -300,7 +300,7 @@ impl Rows {
             Values::Double(_) | Values::Single(_) | Values::Word(..) => {}
         }
     }
-    fn word(&mut self, column: usize, value: u16, words: &Arc<Vec<String>>) {
+    fn word(&mut self, column: usize, value: u32, words: &Arc<Vec<String>>) {
         if let Values::Word(values, known) = &mut self.columns[column] {
             if values.is_empty() {
                 *known = Arc::clone(words);
@@ -423,7 +423,7 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
         if let Values::Word(group, words) = &mut all[4] {
             *words = Arc::clone(&self.tables.words.groups);
             for (g, range) in self.groups.iter().enumerate() {
-                group.resize(group.len() + range.count as usize, g as u16);
+                group.resize(group.len() + range.count as usize, g as u32);
             }
         }
         for a in 0..D {
@@ -438,8 +438,8 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
                 match (&mut *to, labels) {
                     (Values::Word(values, words), Some(labels)) => {
                         *words = Arc::clone(labels);
-                        let none = labels.len() as u16;
-                        let word = |label: &R| label.to_f64().clamp(0.0, f64::from(none)) as u16;
+                        let none = labels.len() as u32;
+                        let word = |label: &R| label.to_f64().clamp(0.0, f64::from(none)) as u32;
                         values.extend(of_group.iter().map(|label| if declares { word(label) } else { none }));
                     }
                     (to, _) if declares => append(to, of_group),
@@ -472,7 +472,7 @@ impl<R: Scalar, const D: usize> Keeper<R, D> {
             out.whole(0, 0);
             out.whole(1, step as i64);
             out.number(2, time);
-            out.word(3, part as u16, &self.tables.words.groups);
+            out.word(3, part as u32, &self.tables.words.groups);
             out.whole(4, members.len() as i64);
             let mut to = 5;
             for measure in &self.measures {

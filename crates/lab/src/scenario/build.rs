@@ -145,6 +145,14 @@ pub(crate) fn put(tree: &mut Node, sets: &[String], sources: &mut Sources, desk:
         let from = from + set[from..].len() - set[from..].trim_start().len();
         let value = parse_value(sources, source, from, &mut desk.problems);
         let node = Node { span: span.clone(), ..value };
+        if let Some((name, there)) = tree.new_name(path) {
+            let known = || there.iter().map(String::as_str);
+            let help = match space::spelling::nearest(&name, known()) {
+                Some(near) => format!("`{name}` is new here; did you mean `{near}`?"),
+                None => format!("`{name}` is new here, beside {}", known().collect::<Vec<_>>().join(", ")),
+            };
+            desk.new_names.push((span.clone(), help));
+        }
         if let Err(problem) = tree.set(path, node) {
             desk.problem(&span, problem, "names no place in the file", "");
         }

@@ -72,7 +72,7 @@ pub enum Values {
     /// Whole numbers of 32 bits.
     Whole(Vec<i32>),
     /// Words, by their place in a list.
-    Word(Vec<u16>, Arc<Vec<String>>),
+    Word(Vec<u32>, Arc<Vec<String>>),
 }
 
 impl Values {
@@ -120,7 +120,7 @@ impl Values {
             Self::Long(values) => values[row].to_string(),
             Self::Whole(values) => values[row].to_string(),
             Self::Word(values, words) => {
-                let word = words.get(usize::from(values[row])).map_or("", String::as_str);
+                let word = words.get(values[row] as usize).map_or("", String::as_str);
                 if word.contains([',', '"', '\n', '\r']) {
                     format!("\"{}\"", word.replace('"', "\"\""))
                 } else {
@@ -265,7 +265,7 @@ impl Blocks {
                     let words: Vec<ByteArray> =
                         words.iter().map(|word| ByteArray::from(word.as_bytes().to_vec())).collect();
                     let nothing = ByteArray::from(Vec::new());
-                    let word = |k: &u16| words.get(usize::from(*k)).unwrap_or(&nothing).clone();
+                    let word = |k: &u32| words.get(*k as usize).unwrap_or(&nothing).clone();
                     let values: Vec<ByteArray> = values.iter().map(word).collect();
                     write::<ByteArrayType>(&mut column, &values, always, |word| !word.is_empty())?;
                 }
@@ -493,7 +493,7 @@ impl Table {
                         words.push(word.to_owned());
                         words.len() - 1
                     });
-                    places.push(u16::try_from(at).map_err(|_| ParquetError::General("too many words".into()))?);
+                    places.push(u32::try_from(at).map_err(|_| ParquetError::General("too many words".into()))?);
                 }
                 Values::Word(spread(places, &levels, 0), Arc::new(words))
             }
@@ -534,7 +534,7 @@ mod tests {
             Values::Whole((0..rows as i32).collect()),
             Values::Double((0..rows).map(|k| if k % 3 == 1 { f64::NAN } else { 0.1 * k as f64 }).collect()),
             Values::Single((0..rows).map(|k| k as f32).collect()),
-            Values::Word((0..rows).map(|k| (k % 3) as u16).collect(), words),
+            Values::Word((0..rows).map(|k| (k % 3) as u32).collect(), words),
             Values::Double((0..rows).map(|k| first as f64 + (k / 50) as f64).collect()),
         ]
     }

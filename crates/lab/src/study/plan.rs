@@ -678,6 +678,13 @@ impl Reader<'_> {
             return None;
         }
         let full = matches!(study.design, Design::Full(_));
+        // a level that is there twice would count its trials twice
+        let twice = |own: &[Put]| (1..own.len()).find(|&k| own[..k].iter().any(|put| put.level == own[k].level));
+        if let Some((at, k)) = (0..levels.len()).find_map(|at| Some((at, twice(&levels[at])?))).filter(|_| full) {
+            let what = format!("`{}` has the level {} twice", factors[at].0, levels[at][k].level.text);
+            self.files.desk.problem(&place(&factors[at].0), what, "each level once", "");
+            return None;
+        }
         let row = |k: usize| {
             let mut left = k;
             let mut row: Vec<Put> = Vec::with_capacity(count);
@@ -727,6 +734,18 @@ impl Reader<'_> {
             }
             (Some(_), Some(_)) => {
                 self.files.desk.problem(place, format!("`{name}` has values and steps"), "one of the two", "");
+                return None;
+            }
+        }
+        for (other, _) in &factor.level.0 {
+            if levels.iter().all(|put: &Put| put.level.text != *other) {
+                let texts = || levels.iter().map(|put| put.level.text.as_str());
+                let help = match nearest(other, texts()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("its levels are {}", texts().collect::<Vec<_>>().join(", ")),
+                };
+                let what = format!("the factor `{name}` has no level `{other}`");
+                self.files.desk.problem(place, what, "not one of its values or steps", help);
                 return None;
             }
         }

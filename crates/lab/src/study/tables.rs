@@ -99,7 +99,7 @@ fn cells(plan: &Plan, results: &Results) -> Filled {
     ];
     let all = || plan.cells.iter();
     let mut columns = vec![
-        Values::Word(all().map(|cell| cell.part as u16).collect(), parts),
+        Values::Word(all().map(|cell| cell.part as u32).collect(), parts),
         Values::Long((1..=plan.cells.len() as i64).collect()),
         Values::Long(all().map(|cell| cell.condition as i64 + 1).collect()),
     ];
@@ -126,7 +126,7 @@ fn cells(plan: &Plan, results: &Results) -> Filled {
                 words.iter().position(|word| word == text).unwrap_or_else(|| {
                     words.push(text.to_owned());
                     words.len() - 1
-                }) as u16
+                }) as u32
             };
             let places = all().map(|cell| place(level(cell).map_or("", |level| level.text.as_str()))).collect();
             headings.push(Heading::new(name, "", about, Kind::Word));

@@ -25,12 +25,17 @@ pub struct Analysed {
     /// The same without what was flagged, where something was.
     pub unflagged: Option<PerFrame>,
     /// Metrics over time, each with its table.
-    pub over_time: Vec<(&'static TrackCard, Listing)>,
+    pub over_time: Vec<OverTime>,
+    /// The same without what was flagged; empty where nothing was.
+    pub over_time_unflagged: Vec<OverTime>,
     /// Why a metric over time has no table, though nothing was wrong with what was asked.
     pub undefined: Vec<String>,
     /// Metrics that were not measured since nobody gave their parameters, with the names of these.
     pub left_out: Vec<(&'static str, Vec<&'static str>)>,
 }
+
+/// A metric over time with its table.
+pub type OverTime = (&'static TrackCard, Listing);
 
 /// An average over the frames in which a metric is defined.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,13 +85,27 @@ pub fn analyse(recording: Recording, file: &TracksFile, workers: &Arc<Workers>) 
             None
         } else {
             let rest = clean::without_flagged(tracks, &cleaned).map_err(failed)?;
-            Some(per_frame(&rest, &metrics, workers))
+            let (over, _) = measured_over_time(&rest, file, &mut Vec::new())?;
+            Some((per_frame(&rest, &metrics, workers), over))
         };
         (metrics.iter().map(|metric| metric.card()).collect(), measured, unflagged, left_out, over)
     });
     let (over_time, undefined) = over;
+    let (unflagged, over_time_unflagged) =
+        unflagged.map_or_else(Default::default, |(measured, over)| (Some(measured), over));
     let recording = Recording { name, path, table, understood };
-    Ok(Analysed { recording, cleaned, units, cards, measured, unflagged, over_time, undefined, left_out })
+    Ok(Analysed {
+        recording,
+        cleaned,
+        units,
+        cards,
+        measured,
+        unflagged,
+        over_time,
+        over_time_unflagged,
+        undefined,
+        left_out,
+    })
 }
 
 fn cleaned_of<const D: usize>(
@@ -174,7 +193,7 @@ fn measured_over_time<const D: usize>(
     tracks: &Tracks<D>,
     file: &TracksFile,
     left_out: &mut LeftOut,
-) -> Result<(Vec<(&'static TrackCard, Listing)>, Vec<String>), StoreError> {
+) -> Result<(Vec<OverTime>, Vec<String>), StoreError> {
     let (mut listings, mut undefined) = (Vec::new(), Vec::new());
     let asked = file.measure.metrics.is_some();
     if !asked && tracks.len() > OVER_TIME {

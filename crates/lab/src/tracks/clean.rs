@@ -40,6 +40,8 @@ impl Flag {
 /// What cleaning did.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cleaned {
+    /// What was asked for.
+    pub asked: Cleaning,
     /// Flagged rows of the cleaned tracks: the row, its frame (by its place in the list), and why; ascending.
     pub flags: Vec<(usize, usize, Flag)>,
     /// Positions put into gaps, and the number of gaps that were filled.
@@ -50,12 +52,22 @@ pub struct Cleaned {
     pub smoothed: (usize, usize),
 }
 
+impl Cleaned {
+    /// How many positions are flagged for each reason that was looked for.
+    pub fn flag_counts(&self) -> impl Iterator<Item = (Flag, usize)> {
+        let looked =
+            [(Flag::ImpossibleSpeed, self.asked.greatest_speed.is_some()), (Flag::IdentitySwap, self.asked.swaps)];
+        let count = |flag: Flag| self.flags.iter().filter(|(.., other)| *other == flag).count();
+        looked.into_iter().filter(|(_, asked)| *asked).map(move |(flag, _)| (flag, count(flag)))
+    }
+}
+
 /// Cleans tracks: fills gaps, then flags, then smooths.
 ///
 /// # Errors
 /// Where the cleaned rows are no tracks, which only a fault of ours can cause.
 pub fn clean<const D: usize>(tracks: Tracks<D>, ask: &Cleaning) -> Result<(Tracks<D>, Cleaned), TracksError> {
-    let mut done = Cleaned::default();
+    let mut done = Cleaned { asked: *ask, ..Cleaned::default() };
     let tracks = match ask.interpolate {
         Some(longest) => interpolate(tracks, longest, &mut done)?,
         None => tracks,
@@ -80,6 +92,7 @@ pub fn clean<const D: usize>(tracks: Tracks<D>, ask: &Cleaning) -> Result<(Track
 /// As [`clean`].
 pub fn without_flagged<const D: usize>(tracks: &Tracks<D>, done: &Cleaned) -> Result<Tracks<D>, TracksError> {
     let mut rows = rows_of(tracks);
+    // velocities that the table tells stay; differences go with their positions
     for &(row, ..) in &done.flags {
         (0..D).for_each(|a| rows.position[a][row] = f64::NAN);
     }
@@ -92,7 +105,8 @@ fn rows_of<const D: usize>(tracks: &Tracks<D>) -> Rows<D> {
         frame: Vec::with_capacity(tracks.len()),
         individual: tracks.individuals().to_vec(),
         position: core::array::from_fn(|a| tracks.positions(a).to_vec()),
-        ..Rows::default()
+        velocity: tracks.tells_velocities().then(|| core::array::from_fn(|a| tracks.velocities(a).to_vec())),
+        body: None,
     };
     for (k, &frame) in tracks.frames().iter().enumerate() {
         rows.frame.resize(rows.frame.len() + tracks.rows(k).len(), frame);
@@ -101,10 +115,15 @@ fn rows_of<const D: usize>(tracks: &Tracks<D>) -> Rows<D> {
         if tracks.rows(k).is_empty() {
             rows.frame.push(frame);
             rows.individual.push(0);
-            rows.position.iter_mut().for_each(|column| column.push(f64::NAN));
+            columns(&mut rows).for_each(|column| column.push(f64::NAN));
         }
     }
     rows
+}
+
+/// The columns of positions, and of velocities where they are told.
+fn columns<const D: usize>(rows: &mut Rows<D>) -> impl Iterator<Item = &mut Vec<f64>> {
+    rows.position.iter_mut().chain(rows.velocity.iter_mut().flatten())
 }
 
 fn clock_of<const D: usize>(tracks: &Tracks<D>) -> BTreeMap<i64, f64> {
@@ -153,6 +172,7 @@ fn interpolate<const D: usize>(
                     rows.frame.push(frame);
                     rows.individual.push(individual as u32);
                     (0..D).for_each(|a| rows.position[a].push(at.0[a]));
+                    rows.velocity.iter_mut().flatten().for_each(|column| column.push(f64::NAN));
                     done.filled.0 += 1;
                 }
             }
@@ -178,7 +198,7 @@ fn drop_empty_twins<const D: usize>(rows: &mut Rows<D>) {
     rows.frame.retain(|_| *kept.next().unwrap_or(&true));
     let mut kept = keep.iter();
     rows.individual.retain(|_| *kept.next().unwrap_or(&true));
-    for column in &mut rows.position {
+    for column in columns(rows) {
         let mut kept = keep.iter();
         column.retain(|_| *kept.next().unwrap_or(&true));
     }
@@ -257,7 +277,8 @@ fn smooth<const D: usize>(
     done: &mut Cleaned,
 ) -> Result<Tracks<D>, TracksError> {
     let weights: Vec<Vec<f64>> = (0..window).map(|at| savitzky_golay(window, order, at)).collect();
-    let mut rows = rows_of(&tracks);
+    // velocities are those of the smooth paths, also where the table tells others
+    let mut rows = Rows { velocity: None, ..rows_of(&tracks) };
     let paths = tracks.paths();
     for individual in 0..paths.len() {
         let path: Vec<(usize, usize)> = paths.of(individual).collect();
@@ -386,6 +407,24 @@ mod tests {
         let (flagged, done) = clean(tracks(&fixes, 1), &ask).unwrap();
         assert_eq!(done.flags, [(3, 3, Flag::ImpossibleSpeed)]);
         assert_eq!(without_flagged(&flagged, &done).unwrap().len(), 5);
+    }
+
+    #[test]
+    fn velocities_that_are_told_stay_until_paths_are_smoothed() {
+        let rows = Rows {
+            frame: (0..6).collect(),
+            individual: vec![0; 6],
+            position: [vec![0.0, 1.0, 2.0, 90.0, 4.0, 5.0], vec![0.0; 6]],
+            velocity: Some([vec![7.0; 6], vec![0.0; 6]]),
+            body: None,
+        };
+        let told = Tracks::new(rows, vec!["a".into()], Clock::Rate(1.0), Ground::Plane(Space::open())).unwrap();
+        let ask = Cleaning { greatest_speed: Some(2.0), ..Cleaning::default() };
+        let (flagged, done) = clean(told.clone(), &ask).unwrap();
+        let rest = without_flagged(&flagged, &done).unwrap();
+        assert_eq!((flagged.velocities(0), rest.velocities(0)), (&[7.0; 6][..], &[7.0; 5][..]));
+        let (smoothed, _) = clean(told, &Cleaning { smooth: Some((3, 1)), ..Cleaning::default() }).unwrap();
+        assert!(!smoothed.tells_velocities() && smoothed.velocity(0).is_none());
     }
 
     #[test]

@@ -296,6 +296,7 @@ fn changed(now: &Tree, before: &Tree) -> String {
 /// A value in TOML, on one line.
 fn toml(tree: &Tree) -> String {
     match tree {
+        Tree::Number(number) if number.is_nan() => "nan".to_owned(),
         Tree::Number(number) => format!("{number:?}"),
         Tree::Whole(number) => number.to_string(),
         Tree::Truth(truth) => truth.to_string(),

@@ -1,6 +1,7 @@
 //! Flat Parquet tables, of whoever wrote them: pandas, polars, R, DuckDB, this program.
 
 use super::gather::{Bad, Row};
+use super::layouts::idtracker::NO_RATE;
 use super::layouts::{Plan, Who};
 use super::text::{Head, NotNumber, number};
 use super::wrong;
@@ -49,6 +50,8 @@ pub(super) fn head(path: &Path) -> Result<Head, StoreError> {
         let rate = json.as_ref().and_then(|json| json.get("frames_per_second").or(json.get("fps")));
         if let Some(rate) = rate.and_then(serde_json::Value::as_f64) {
             comments.push(format!("framerate: {rate}"));
+        } else if note.key == "idtrackerai_attributes" {
+            comments.push(NO_RATE.to_owned());
         } else if note.key == "fps" {
             comments.push(format!("framerate: {value}"));
         }

@@ -5,6 +5,7 @@ use super::{Ask, stamps, wrong};
 use crate::store::StoreError;
 use std::collections::HashMap;
 use std::path::Path;
+use swarm::parameters::GREATEST;
 
 /// A row of a table.
 pub(super) trait Row {
@@ -108,7 +109,7 @@ impl Gathered {
                     wrong(path, &format!("{}, column `{name}`: {expected}, found `{word}`", row.place()))
                 })?
             }
-            Some(clock) => number(clock.column)?,
+            Some(clock) => number(clock.column)? * clock.unit.unwrap_or(1.0),
         };
         if plan.time.is_some() && !time.is_finite() {
             if plan.frame.is_none() {
@@ -169,7 +170,12 @@ impl Gathered {
                 self.time.push(time);
             }
             for (a, column) in self.place.iter_mut().enumerate() {
-                column.push(at[a] / points * ask.scale);
+                let coordinate = at[a] / points * ask.scale;
+                if coordinate.abs() > GREATEST {
+                    let what = format!("{}: a coordinate of {coordinate:e} is beyond {GREATEST:e}", row.place());
+                    return Err(wrong(path, &what));
+                }
+                column.push(coordinate);
             }
             if let Some(columns) = &place.velocity {
                 for (to, &column) in self.velocity.iter_mut().zip(columns) {

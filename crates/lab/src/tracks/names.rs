@@ -6,8 +6,11 @@ use crate::store::StoreError;
 
 /// What a column can be, by the word that `--columns` knows it by, with the names it is known to have elsewhere.
 pub const ROLES: &[(&str, &[&str])] = &[
-    ("frame", &["frame", "frame_idx", "frame_index", "frame_number", "framenumber", "frame_no", "fnum", "imagenumber"]),
-    ("time", &["utc", "timestamp", "datetime", "date_time", "t", "time", "seconds", "time_s", "sec", "time_sec"]),
+    (
+        "frame",
+        &["frame", "frame_idx", "frame_index", "frame_number", "framenumber", "frame_no", "fnum", "imagenumber", "fr"],
+    ),
+    ("time", &["utc", "timestamp", "datetime", "date_time", "t", "time", "seconds", "sec"]),
     (
         "id",
         &[
@@ -57,7 +60,8 @@ pub const ROLES: &[(&str, &[&str])] = &[
 ];
 
 /// Words of `--columns` that do not name a column.
-pub const CHOICES: [(&str, &str); 2] = [
+pub const CHOICES: [(&str, &str); 3] = [
+    ("clock", "the unit of times that are numbers: h, min, s, ms, us or ns"),
     ("point", "the body part that stands for an individual, or mean"),
     ("wide", "xy or xyz: how many numbers each individual has in a wide table without names"),
 ];
@@ -123,6 +127,45 @@ pub fn length_unit(text: &str) -> Option<&'static str> {
     LENGTHS.iter().find(|(known, _)| known.eq_ignore_ascii_case(text)).map(|&(_, unit)| unit)
 }
 
+/// Units of time by their seconds, as `--columns clock=UNIT` and names of columns say them.
+const TIMES: [(&str, f64); 16] = [
+    ("s", 1.0),
+    ("sec", 1.0),
+    ("second", 1.0),
+    ("seconds", 1.0),
+    ("ms", 1e-3),
+    ("msec", 1e-3),
+    ("millisecond", 1e-3),
+    ("milliseconds", 1e-3),
+    ("us", 1e-6),
+    ("microseconds", 1e-6),
+    ("ns", 1e-9),
+    ("min", 60.0),
+    ("minute", 60.0),
+    ("minutes", 60.0),
+    ("h", 3600.0),
+    ("hours", 3600.0),
+];
+
+/// Seconds in a unit of time; none where it is not known.
+pub fn time_unit(text: &str) -> Option<f64> {
+    TIMES.iter().find(|(known, _)| known.eq_ignore_ascii_case(text.trim())).map(|&(_, seconds)| seconds)
+}
+
+/// Seconds in the unit of a column of times: what was asked for, or what its name carries, as `time (ms)` and `time_ms`.
+///
+/// # Errors
+/// A unit that is not known.
+pub fn time_unit_of(head: &Head, ask: &Ask, name: &str) -> Result<Option<f64>, StoreError> {
+    if let Some(unit) = ask.column("clock") {
+        return time_unit(unit).map(Some).ok_or_else(|| {
+            wrong(&head.path, &format!("--columns clock={unit} is no unit of time; there are h, min, s, ms, us and ns"))
+        });
+    }
+    let behind = name.trim().rsplit_once('_').map(|(_, unit)| unit);
+    Ok(split_unit(name).1.or(behind).and_then(time_unit))
+}
+
 /// The unit that the names of coordinates carry.
 ///
 /// # Errors
@@ -185,13 +228,40 @@ pub fn column(head: &Head, names: &[String], ask: &Ask, role: &str) -> Result<Op
         return named(head, names, role, name).map(Some);
     }
     let known = ROLES.iter().find(|(word, _)| *word == role).map_or(&[][..], |(_, known)| known);
-    let plain: Vec<String> = names.iter().map(|name| self::plain(name)).collect();
-    Ok(known.iter().find_map(|known| plain.iter().position(|name| name == known)))
+    let timely = role == "time";
+    let plain: Vec<String> = names.iter().map(|name| if timely { untimed(name) } else { self::plain(name) }).collect();
+    let Some(found) = known.iter().find_map(|known| plain.iter().position(|name| name == known)) else {
+        return Ok(None);
+    };
+    if let Some(again) = (found + 1..names.len()).find(|&k| names[k] == names[found]) {
+        return Err(twice(head, role, &names[found], found, again));
+    }
+    Ok(Some(found))
+}
+
+/// Two columns of one name are told apart by their numbers.
+fn twice(head: &Head, role: &str, name: &str, first: usize, second: usize) -> StoreError {
+    let (first, second) = (first + 1, second + 1);
+    let how = format!("say which with --columns {role}={first} or --columns {role}={second}");
+    wrong(&head.path, &format!("two columns are called `{name}`: {how}"))
+}
+
+/// A name of a column of times without its unit: `time_ms` is `time`.
+pub fn untimed(name: &str) -> String {
+    let plain = plain(name);
+    match plain.rsplit_once('_') {
+        Some((before, unit)) if time_unit(unit).is_some() && !before.is_empty() => before.to_owned(),
+        _ => plain,
+    }
 }
 
 /// The column of a name, or of a number counted from 1.
 fn named(head: &Head, names: &[String], role: &str, name: &str) -> Result<usize, StoreError> {
     let number = name.parse::<usize>().ok().filter(|&number| number >= 1 && number <= names.len());
+    let alike: Vec<usize> = (0..names.len()).filter(|&k| names[k] == name).collect();
+    if let [first, second, ..] = alike[..] {
+        return Err(twice(head, role, name, first, second));
+    }
     let found =
         names.iter().position(|other| other == name).or_else(|| names.iter().position(|n| plain(n) == plain(name)));
     found.or(number.map(|number| number - 1)).ok_or_else(|| {
@@ -227,6 +297,21 @@ mod tests {
         ] {
             assert_eq!((plain(name).as_str(), split_unit(name).1), (expected, unit), "{name}");
         }
+    }
+
+    #[test]
+    fn times_carry_their_units() {
+        let head = Head::default();
+        let of = |name: &str| time_unit_of(&head, &Ask::default(), name).unwrap_or(None);
+        assert_eq!(of("time_ms"), Some(1e-3));
+        assert_eq!(of("Time (min)"), Some(60.0));
+        assert_eq!(of("t [s]"), Some(1.0));
+        assert_eq!(of("timestamp"), None);
+        let asked = |unit: &str| Ask { columns: vec![("clock".into(), unit.into())], ..Ask::default() };
+        assert_eq!(time_unit_of(&head, &asked("us"), "time_ms").ok(), Some(Some(1e-6)));
+        assert!(time_unit_of(&head, &asked("weeks"), "time").is_err());
+        assert_eq!(untimed("time_ms"), "time");
+        assert_eq!(untimed("date_time"), "date_time");
     }
 
     #[test]

@@ -64,7 +64,7 @@ impl RunFolder {
         Ok(Plan {
             layout: "run",
             frame: Some(need("frame")?),
-            time: Some(Clock { column: need("t")?, stamps: false }),
+            time: Some(Clock::seconds(need("t")?)),
             geographic: globe.is_some(),
             places,
             unit,

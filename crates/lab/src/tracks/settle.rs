@@ -46,9 +46,14 @@ struct Frames {
 /// Where frames have no rate, an individual is twice in a frame, or times are those of no common clock.
 pub(super) fn settle(path: &Path, plan: &Plan, ask: &Ask, mut read: Gathered) -> Result<Settled, StoreError> {
     if read.who.is_empty() {
-        let what = if read.lost > 0 { "no row names an individual" } else { "no row has a position" };
-        return Err(wrong(path, &format!("{what}; expected a table of positions")));
+        let what = if read.lost > 0 {
+            "no row names an individual; if all are of one, say --columns id=none"
+        } else {
+            "no row has a position; expected a table of positions"
+        };
+        return Err(wrong(path, what));
     }
+    check_unit(path, plan, &read)?;
     rename(&mut read);
     add_empty_frames(&mut read);
     let mut frames = frames(path, plan, ask, &mut read)?;
@@ -72,6 +77,22 @@ pub(super) fn settle(path: &Path, plan: &Plan, ask: &Ask, mut read: Gathered) ->
         repeated,
         notes: frames.notes,
     })
+}
+
+/// Numbers that cannot be seconds, of this age of the world, have a unit that is to be said.
+fn check_unit(path: &Path, plan: &Plan, read: &Gathered) -> Result<(), StoreError> {
+    const LATEST: f64 = 1e11;
+    let unsaid = plan.time.filter(|clock| !clock.stamps && clock.unit.is_none());
+    match (unsaid, read.time.iter().find(|time| time.abs() > LATEST)) {
+        (Some(clock), Some(time)) => {
+            let name = plan.names.get(clock.column).map_or("?", String::as_str);
+            Err(wrong(
+                path,
+                &format!("times of column `{name}`, as {time}, are no seconds: say --columns clock=ms (or us, ns)"),
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Individuals in the order of their numbers, where all are numbers: files name them in the order in which they appear.
@@ -295,7 +316,9 @@ fn usual_interval(time: &[f64], who: &[u32]) -> Option<f64> {
 
 /// Frames of times alone.
 fn of_times(path: &Path, plan: &Plan, ask: &Ask, mut time: Vec<f64>, who: &[u32]) -> Result<Frames, StoreError> {
-    let dated = plan.time.is_some_and(|clock| clock.stamps) || time.iter().all(|&t| t > 1e8);
+    let stamped = plan.time.is_some_and(|clock| clock.stamps);
+    let dated = stamped || time.iter().all(|&t| t > 1e8);
+    let of_day = stamped && time.iter().all(|&t| (0.0..2.0 * stamps::DAY).contains(&t));
     let least = time.iter().copied().fold(f64::INFINITY, f64::min);
     let origin = if dated { least } else { 0.0 };
     time.iter_mut().for_each(|t| *t -= origin);
@@ -325,10 +348,17 @@ fn of_times(path: &Path, plan: &Plan, ask: &Ask, mut time: Vec<f64>, who: &[u32]
         return Ok(Frames { frame, clock, rate: None, origin: stamp(dated), first_counts: true, notes });
     }
     gaps.sort_unstable_by(f64::total_cmp);
+    if of_day && gaps[gaps.len() - 1] > stamps::DAY / 2.0 {
+        let what =
+            "times of day go past midnight, or leave half a day out: they need their dates, as 2012-08-05 03:00:01.5";
+        return Err(wrong(path, what));
+    }
     let (shortest, usual) = (gaps[0], gaps[gaps.len() / 2]);
     // of individuals with one clock, the time between an individual's fixes is that between ticks, or a few of them
     let own = usual_interval(&time, who).unwrap_or(usual);
-    if shortest < 0.4 * usual || usual < 0.2 * own {
+    let steps = |gap: f64| gap / usual;
+    let steady = gaps.iter().all(|&gap| (steps(gap) - steps(gap).round()).abs() < 0.05 * steps(gap).sqrt());
+    if shortest < 0.4 * usual || usual < 0.2 * own || !steady && usual < 0.6 * own {
         return Err(wrong(
             path,
             &format!(
@@ -340,8 +370,6 @@ fn of_times(path: &Path, plan: &Plan, ask: &Ask, mut time: Vec<f64>, who: &[u32]
         ));
     }
     let place = |t: f64| ticks.partition_point(|&tick| tick <= t + SAME).saturating_sub(1);
-    let steps = |gap: f64| gap / usual;
-    let steady = gaps.iter().all(|&gap| (steps(gap) - steps(gap).round()).abs() < 0.05 * steps(gap).sqrt());
     let mut numbers: Vec<i64> = (0..ticks.len() as i64).collect();
     if steady {
         let mut number = 0;

@@ -1,5 +1,8 @@
 //! Time stamps: `2012-08-05 03:00:01.5`, with a T between date and time, with a zone behind, or the time of day alone.
 
+/// Seconds of a day.
+pub(super) const DAY: f64 = 86_400.0;
+
 /// Seconds of a time stamp: since 1970 in UTC, or of a time of day since midnight; none where it is no time stamp.
 pub(super) fn seconds(text: &[u8]) -> Option<f64> {
     let text = core::str::from_utf8(text).ok()?.trim();
@@ -10,10 +13,15 @@ pub(super) fn seconds(text: &[u8]) -> Option<f64> {
     }
     let number = |from: usize, to: usize| text.get(from..to)?.parse::<i64>().ok();
     let (year, month, day) = (number(0, 4)?, number(5, 7)?, number(8, 10)?);
-    if !(1..=12).contains(&month) || !(1..=31).contains(&day) {
+    if !(1..=12).contains(&month) || day < 1 {
         return None;
     }
-    let date = days(year, month, day) as f64 * 86_400.0;
+    let (next_year, next_month) = if month == 12 { (year + 1, 1) } else { (year, month + 1) };
+    let first = days(year, month, 1);
+    if first + day > days(next_year, next_month, 1) {
+        return None;
+    }
+    let date = (first + day - 1) as f64 * DAY;
     let rest = text.get(10..)?;
     if rest.is_empty() {
         return Some(date);
@@ -61,9 +69,12 @@ fn days(year: i64, month: i64, day: i64) -> i64 {
     era * 146_097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719_468
 }
 
-/// A moment in UTC as it is written, to the second.
+/// A moment in UTC, or a time of day, as it is written, to the second.
 pub(super) fn written(seconds: f64) -> String {
     let whole = seconds.floor() as i64;
+    if (0.0..2.0 * DAY).contains(&seconds) {
+        return format!("{:02}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+    }
     let (day, clock) = (whole.div_euclid(86_400) + 719_468, whole.rem_euclid(86_400));
     let era = day.div_euclid(146_097);
     let of_era = day - era * 146_097;
@@ -93,6 +104,11 @@ mod tests {
             ("00:30", Some(1800.0)),
             ("12.5", None),
             ("2012-13-05", None),
+            ("2012-02-30", None),
+            ("2013-02-29 03:00", None),
+            ("2012-02-29", Some(1_330_473_600.0)),
+            ("2012-12-31", Some(1_356_912_000.0)),
+            ("2012-12-32", None),
             ("05/08/2012 03:00", None),
             ("yesterday", None),
             ("", None),

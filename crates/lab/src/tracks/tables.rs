@@ -1,6 +1,6 @@
 //! The tables that an analysis leaves: tracks, metrics and events.
 
-use super::analysis::Analysed;
+use super::analysis::{Analysed, OverTime};
 use super::clean::Flag;
 use crate::run::tables::AXES;
 use crate::store::StoreError;
@@ -109,11 +109,8 @@ fn columns<const D: usize>(
         ),
         "t" => Values::Double(each(&|frame| tracks.times()[frame])),
         "id" => Values::Whole(tracks.individuals()[rows.clone()].iter().map(|&id| id as i32).collect()),
-        "group" => Values::Word(vec![run as u16; rows.len()], Arc::clone(groups)),
-        "individual" => {
-            let words = tracks.individuals()[rows.clone()].iter().map(|&id| id as u16).collect();
-            Values::Word(words, Arc::new(tracks.names().to_vec()))
-        }
+        "group" => Values::Word(vec![run as u32; rows.len()], Arc::clone(groups)),
+        "individual" => Values::Word(tracks.individuals()[rows.clone()].to_vec(), Arc::new(tracks.names().to_vec())),
         "longitude" | "latitude" => {
             let a = usize::from(heading.name == "latitude");
             Values::Double(if globe { tracks.positions(a)[rows.clone()].to_vec() } else { vec![f64::NAN; rows.len()] })
@@ -222,9 +219,9 @@ pub fn events(all: &[Analysed]) -> Vec<Heading> {
 pub fn event_columns(one: &Analysed, run: usize) -> Vec<Values> {
     let mut words: Vec<String> =
         [Flag::ImpossibleSpeed, Flag::IdentitySwap].map(|flag| flag.word().to_owned()).to_vec();
-    let mut rows: Vec<(i64, f64, u16, i64)> = with_tracks!(&one.recording.table, tracks => {
+    let mut rows: Vec<(i64, f64, u32, i64)> = with_tracks!(&one.recording.table, tracks => {
         let row = |&(row, frame, flag): &(usize, usize, Flag)| {
-            let word = u16::from(flag == Flag::IdentitySwap);
+            let word = u32::from(flag == Flag::IdentitySwap);
             (tracks.frames()[frame], tracks.times()[frame], word, i64::from(tracks.individuals()[row]))
         };
         one.cleaned.flags.iter().map(row).collect()
@@ -242,7 +239,7 @@ pub fn event_columns(one: &Analysed, run: usize) -> Vec<Values> {
                 words.push(label);
                 words.len() - 1
             });
-            rows.push((listing.columns[frame][row] as i64, listing.columns[time][row], word as u16, -1));
+            rows.push((listing.columns[frame][row] as i64, listing.columns[time][row], word as u32, -1));
         }
     }
     rows.sort_by_key(|row| row.0);
@@ -296,6 +293,12 @@ pub fn over_time() -> Vec<Heading> {
         Heading::new("run", "1", "Number of the recording, from 0.", Kind::Whole),
         Heading::new("group", "", "Name of the recording.", Kind::Word),
         Heading::new("metric", "", "The metric.", Kind::Word),
+        Heading::new(
+            "flagged",
+            "",
+            "Whether flagged positions are in it: `kept`, or `left_out` where any were flagged.",
+            Kind::Word,
+        ),
         Heading::new("row", "1", "Row of its table, from 0.", Kind::Long),
         Heading::new("field", "", "Column of its table.", Kind::Word),
         Heading::new("unit", "", "Unit of the column.", Kind::Word),
@@ -304,22 +307,31 @@ pub fn over_time() -> Vec<Heading> {
     ]
 }
 
+/// What was done with flagged positions.
+pub const FLAGGED: [&str; 2] = ["kept", "left_out"];
+
+/// The tables over time of a recording, each with its place in [`FLAGGED`].
+pub fn over_time_of(one: &Analysed) -> impl Iterator<Item = (u32, &OverTime)> {
+    one.over_time.iter().map(|over| (0, over)).chain(one.over_time_unflagged.iter().map(|over| (1, over)))
+}
+
 /// The metrics over time of a recording.
 pub fn over_time_columns(one: &Analysed, run: usize) -> Vec<Values> {
     let mut lists: [Vec<String>; 4] = Default::default();
-    let mut index: [HashMap<String, u16>; 4] = Default::default();
+    let mut index: [HashMap<String, u32>; 4] = Default::default();
     let mut word = |list: usize, text: String| {
         *index[list].entry(text).or_insert_with_key(|text| {
             lists[list].push(text.clone());
-            (lists[list].len() - 1).min(usize::from(u16::MAX)) as u16
+            (lists[list].len() - 1) as u32
         })
     };
-    let (mut metric, mut row, mut field, mut unit, mut value, mut named) =
-        (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for (card, listing) in &one.over_time {
+    let (mut metric, mut flagged, mut row, mut field, mut unit, mut value, mut named) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for (place, (card, listing)) in over_time_of(one) {
         for r in 0..listing.len() {
             for (of, column) in card.fields.iter().zip(&listing.columns) {
                 metric.push(word(0, card.id.to_owned()));
+                flagged.push(place);
                 row.push(r as i64);
                 field.push(word(1, of.name.to_owned()));
                 unit.push(word(2, unit_of(one, of.unit)));
@@ -334,6 +346,7 @@ pub fn over_time_columns(one: &Analysed, run: usize) -> Vec<Values> {
         Values::Whole(vec![run as i32; count]),
         Values::Word(vec![0; count], Arc::new(vec![one.recording.name.clone()])),
         Values::Word(metric, metrics),
+        Values::Word(flagged, Arc::new(FLAGGED.map(str::to_owned).to_vec())),
         Values::Long(row),
         Values::Word(field, fields),
         Values::Word(unit, units),

@@ -119,6 +119,10 @@ fn pedestrian_text_states_rate_and_unit() {
     assert!(understood.notes[0].contains("z is the height"));
     let solid = read(&recording.path, None, &ask(&[("z", "z/m")])).unwrap();
     assert!(matches!(solid.table, Table::Space(_)));
+    let old = "#framerate: 8.00\n#ID\tFR\tX\tY\tZ\tA\tB\tANGLE\tCOLOR\n7\t3\t1.5\t2\t0\t0.2\t0.2\t0\t200\n\
+               7\t4\t1.6\t2\t0\t0.2\t0.2\t0\t200\n";
+    let recording = reads("jpscore.txt", old, &Ask::default());
+    assert_eq!((recording.understood.layout.as_str(), recording.understood.rate), ("pedestrian", Some(8.0)));
     let blanks = "#framerate: 16\n#ID frame x/cm y/cm z/cm\n7 3  10.5 20 170\n7 4 11 20 170\n";
     let recording = reads("jupedsim.txt", blanks, &Ask::default());
     assert_eq!((recording.understood.unit.as_str(), place(&recording, 4, "7")), ("cm", [11.0, 20.0]));
@@ -135,7 +139,18 @@ fn idtracker_with_its_attributes() {
     assert_eq!(understood.positions, 5);
     let tidy = "frame,time,individual,x,y,probability\n0,0.0,1,10.1,20.2,1.0\n1,0.04,1,10.4,20.2,0.9\n2,0.08,1,10.4,20.2,0.9\n";
     let recording = reads("idtracker/trajectories_tidy.csv", tidy, &Ask::default());
-    assert_eq!((recording.understood.layout.as_str(), recording.understood.rate), ("long", Some(25.0)));
+    assert_eq!((recording.understood.layout.as_str(), recording.understood.rate), ("idtracker", Some(25.0)));
+    assert_eq!(recording.understood.unit, "px");
+    // where it knew no rate, it counts frames for seconds, or leaves times out
+    let counted = tidy.replace("1,0.04", "1,1").replace("2,0.08", "2,2").replace("0,0.0,", "0,0,");
+    assert!(refuses("counted/tidy.csv", counted.as_bytes(), &Ask::default()).contains("--fps F"));
+    file("unknown/attributes_tidy.json", br#"{"version":"6.0.0","frames_per_second":null}"#);
+    assert!(refuses("unknown/tidy.csv", tidy.as_bytes(), &Ask::default()).contains("--fps F"));
+    assert_eq!(reads("unknown/tidy.csv", tidy, &at(28.0)).understood.rate, Some(28.0));
+    // times and places side by side may be anybody's: nothing says px
+    let anybody = text.replace("seconds", "time");
+    let understood = reads("anybody/tracks.csv", &anybody, &Ask::default()).understood;
+    assert_eq!((understood.layout.as_str(), understood.unit.as_str()), ("wide", "unit"));
 }
 
 #[test]
@@ -187,6 +202,21 @@ fn sleap_has_tracks_and_lost_identities() {
 }
 
 #[test]
+fn sleap_without_tracks() {
+    let untracked = "track,frame_idx,instance.score,nose.x,nose.y,nose.score\n,0,0.9,1,2,0.8\n,1,0.9,2,2,0.8\n";
+    assert!(refuses("untracked.csv", untracked.as_bytes(), &at(30.0)).contains("--columns id=none"));
+    let alone = Ask { fps: Some(Rate::Known(30.0)), ..ask(&[("id", "none")]) };
+    let recording = reads("untracked.csv", untracked, &alone);
+    assert_eq!((recording.understood.individuals, recording.understood.positions), (1, 2));
+    let two = untracked.replace(",1,0.9", ",0,0.9");
+    assert!(refuses("two.csv", two.as_bytes(), &alone).contains("twice in frame 0"));
+    let numbered = "frame_idx,inst0.nose.x,inst0.nose.y,inst1.nose.x,inst1.nose.y\n0,1,2,3,4\n1,1,2,3,4\n";
+    assert!(refuses("numbered.csv", numbered.as_bytes(), &at(30.0)).contains("--layout wide"));
+    let wide = Ask { layout: Some("wide".into()), ..at(30.0) };
+    assert_eq!(reads("numbered.csv", numbered, &wide).understood.individuals, 2);
+}
+
+#[test]
 fn animalta_wide_and_detailed() {
     let wide = "Frame;Time;X_Arena0_Ind0;Y_Arena0_Ind0;X_Arena0_Ind1;Y_Arena0_Ind1\n0;0.0;1.5;2;NA;NA\n1;0.03;1.6;2;5;6\n\
                 2;0.07;1.7;2;5;6\n3;0.1;1.8;2;5;6\n";
@@ -197,6 +227,18 @@ fn animalta_wide_and_detailed() {
     let detailed = "Frame;Time;Arena;Ind;X;Y\n0;0.0;0;0;1;2\n0;0.0;0;1;3;4\n1;0.04;0;0;1;2\n1;0.04;0;1;3;4\n";
     let recording = reads("animalta2.csv", detailed, &Ask::default());
     assert_eq!(place(&recording, 1, "Arena0_Ind1"), [3.0, 4.0]);
+}
+
+#[test]
+fn columns_that_are_named_are_used() {
+    let text = "Frame;Time;X_Arena0_Ind0;Y_Arena0_Ind0\n0;0;1;2\n1;9;2;2\n2;1;3;2\n";
+    // a hint that is given has to work
+    assert!(refuses("ata.csv", text.as_bytes(), &Ask::default()).contains("--columns time=none"));
+    let untimed = Ask { fps: Some(Rate::Known(5.0)), ..ask(&[("time", "none")]) };
+    assert_eq!(reads("ata.csv", text, &untimed).understood.rate, Some(5.0));
+    assert!(refuses("ata.csv", text.as_bytes(), &ask(&[("x", "px")])).contains("no column `px`"));
+    let asked = Ask { layout: Some("animalta".into()), ..ask(&[("x", "px")]) };
+    assert!(refuses("ata.csv", text.as_bytes(), &asked).contains("has no use for --columns x=px"));
 }
 
 #[test]
@@ -229,6 +271,42 @@ fn times_without_a_steady_rate_are_kept() {
         reads("gap.csv", "time,id,x,y\n0,a,0,0\n0.1,a,1,0\n0.2,a,2,0\n0.5,a,3,0\n0.6,a,4,0\n", &Ask::default());
     assert_eq!((recording.understood.rate, plane(&recording).frames()), (Some(10.0), &[0, 1, 2, 5, 6][..]));
     assert!(plane(&recording).velocity(3).is_none());
+}
+
+#[test]
+fn the_unit_of_times_is_said_or_asked_for() {
+    let table = |name: &str, each: i64, from: i64| {
+        let rows: String = (0..4).map(|k| format!("{},a,{k},0\n", from + k * each)).collect();
+        format!("{name},id,x,y\n{rows}")
+    };
+    let interval = |text: &str, ask: &Ask| plane(&reads("clock.csv", text, ask)).interval().unwrap();
+    for (name, each, expected) in [("time_ms", 40, 0.04), ("t (min)", 1, 60.0), ("time [s]", 2, 2.0), ("time", 2, 2.0)]
+    {
+        assert!((interval(&table(name, each, 0), &Ask::default()) - expected).abs() < 1e-9, "{name}");
+    }
+    let since_1970 = table("time", 40, 1_344_135_643_000);
+    assert!(refuses("clock.csv", since_1970.as_bytes(), &Ask::default()).contains("--columns clock=ms"));
+    let asked = ask(&[("clock", "ms")]);
+    assert!((interval(&since_1970, &asked) - 0.04).abs() < 1e-6);
+    assert_eq!(reads("clock.csv", &since_1970, &asked).understood.origin.as_deref(), Some("2012-08-05 03:00:43"));
+    assert!(refuses("clock.csv", since_1970.as_bytes(), &ask(&[("clock", "days")])).contains("no unit of time"));
+}
+
+#[test]
+fn times_of_day_end_at_midnight() {
+    let rows = |first: &str| format!("time,id,x,y\n{first},a,0,0\n00:00:01,a,1,0\n00:00:02,a,2,0\n00:00:03,a,3,0\n");
+    let understood = reads("day.csv", &rows("00:00:00"), &Ask::default()).understood;
+    assert_eq!((understood.origin.as_deref(), understood.duration), (Some("00:00:00"), 3.0));
+    assert!(refuses("day.csv", rows("23:59:59").as_bytes(), &Ask::default()).contains("midnight"));
+}
+
+#[test]
+fn individuals_with_clocks_of_their_own_need_ticks() {
+    let rows: String = (0..9).map(|k| format!("{k},a,{k},0\n{k}.37,b,{k},1\n")).collect();
+    let text = format!("time,id,x,y\n{rows}");
+    assert!(refuses("clocks.csv", text.as_bytes(), &Ask::default()).contains("no common clock"));
+    let understood = reads("clocks.csv", &text, &at(1.0)).understood;
+    assert_eq!((understood.frames, understood.positions), (9, 18));
 }
 
 #[test]
@@ -290,6 +368,10 @@ fn what_is_no_table_is_refused_in_a_sentence() {
         ("late.csv", late.as_slice(), "binary data"),
         ("long.csv", long.as_slice(), "longer than"),
         ("head.csv", head.as_slice(), "longer than"),
+        ("more.csv", b"frame,id,x,y\n0,1,2,3\n1,1,2,3,4\n", "line 3 has 5 cells, and the first row 4"),
+        ("twice.csv", b"frame,id,x,x,y\n0,1,2,3,4\n", "--columns x=3 or --columns x=4"),
+        ("far.csv", b"frame,id,x,y\n0,1,2e15,3\n", "beyond 1e15"),
+        ("date.csv", b"time,id,x,y\n2012-02-30 03:00:00,1,2,3\n", "expected a time"),
         ("mark.parquet", b"PAR1", "Parquet"),
         ("cut.parquet", b"PAR1\x15\x04\x15\x10\x15\x14L\x15\x02", "Parquet"),
     ] {

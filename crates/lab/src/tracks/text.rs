@@ -161,6 +161,8 @@ pub(super) fn each_row(
     let mut record = csv::ByteRecord::new();
     let mut filled = Vec::new();
     let mut number = 0;
+    // as many as the first row has
+    let expected = head.rows.get(skip).map_or(usize::MAX, Vec::len);
     while reader.read_byte_record(&mut record).map_err(|error| csv_error(path, error))? {
         if record.iter().all(|cell| cell.trim_ascii().is_empty()) {
             continue;
@@ -174,6 +176,13 @@ pub(super) fn each_row(
             filled.extend((0..record.len()).filter(|&k| !record[k].trim_ascii().is_empty()));
         }
         let filled = (delimiter == b' ').then_some(filled.as_slice());
+        let count = filled.map_or(record.len(), <[usize]>::len);
+        if count > expected
+            && (filled.is_some() || record.iter().skip(expected).any(|cell| !missing(cell.trim_ascii())))
+        {
+            let line = record.position().map_or(0, csv::Position::line);
+            return Err(wrong(path, &format!("line {line} has {count} cells, and the first row {expected}")));
+        }
         each(&TextRow { record: &record, filled, decimal_comma: head.decimal_comma() })?;
     }
     Ok(())

@@ -7,6 +7,7 @@ use serde_json::json;
 use space::{Space, Vector};
 
 pub(crate) const QUESTIONS: &[Question] = &[("metric", |asked| match asked.lists("positions")?.first() {
+    Some(first) if first.len() == 1 => metric::<1>(asked),
     Some(first) if first.len() == 3 => metric::<3>(asked),
     _ => metric::<2>(asked),
 })];

@@ -48,7 +48,8 @@ impl TrackMetric for Coverage {
                     individuals were seen: distinct ones over the window (or at once), sampled at the interval; g \
                     the number of individuals",
         variant: "four readings: 5 cells a side over the last 2 minutes (primary), 10 over these, 10 over \
-                    everything, 5 at once; obstacles not left out",
+                    everything, 5 at once; obstacles not left out; where an axis has neither walls nor periods the box \
+                    goes from the least to the greatest place of the recording",
         source: "behaviour selection, section 7 (D-COV)",
         counted: Counted::Positions,
         dimensions: &[1, 2, 3],
@@ -59,16 +60,15 @@ impl TrackMetric for Coverage {
             Field::number("coverage", "%", "Share of the cells that were visited."),
             Field::count("visited", "Cells that were visited."),
         ],
-        edge: "an error in a space without walls or periods",
+        edge: "0 where nobody was found; an error on the globe",
     };
     fn listing<const D: usize>(&self, tracks: &Tracks<D>) -> Result<Listing, MeasureError> {
         let mut found = Listing::new(&Self::CARD);
         let Ground::Plane(space) = tracks.ground() else {
             return Err(MeasureError::Unfit { metric: Self::CARD.id, needs: "a plane" });
         };
-        let sides: Option<Vec<f64>> = (0..D).map(|a| space.side(a)).collect();
-        let needs = "a space whose axes all have walls or periods";
-        let sides = sides.ok_or(MeasureError::Unfit { metric: Self::CARD.id, needs })?;
+        let ends: Vec<(f64, f64)> =
+            (0..D).map(|a| space.side(a).map_or_else(|| extent(tracks.positions(a)), |side| (0.0, side))).collect();
         let last = tracks.times().last().copied().unwrap_or(0.0);
         let least = self.share * tracks.names().len() as f64;
         let readings =
@@ -88,8 +88,11 @@ impl TrackMetric for Coverage {
                 }
                 for row in tracks.rows(frame) {
                     let place = space.place(tracks.position(row));
-                    let along =
-                        |a: usize| ((place.0[a] / sides[a] * cells as f64).floor().max(0.0) as usize).min(cells - 1);
+                    let along = |a: usize| {
+                        let (low, high) = ends[a];
+                        let share = if high > low { (place.0[a] - low) / (high - low) } else { 0.0 };
+                        ((share * cells as f64).floor().max(0.0) as usize).min(cells - 1)
+                    };
                     seen.insert(((0..D).rev().fold(0, |cell, a| cell * cells + along(a)), tracks.individuals()[row]));
                 }
                 if !distinct {
@@ -104,6 +107,11 @@ impl TrackMetric for Coverage {
         }
         Ok(found)
     }
+}
+
+/// The least and the greatest of some places.
+fn extent(places: &[f64]) -> (f64, f64) {
+    places.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)))
 }
 
 /// Cells with at least so many individuals, of pairs of cell and individual.
@@ -131,11 +139,11 @@ mod tests {
         // in the last 120 s (80 to 199): the first in 4..10, the second in 2.5..8.45, the third in 1..7: two of three in 2.5..8.45 and 8..
         close(&found.columns[3], &[4.0, 7.0, 9.0, 4.0]);
         close(&found.columns[2], &[80.0, 70.0, 90.0, 80.0]);
-        assert!(
-            Coverage::default()
-                .on(&crate::over_time::sketch::tracks(Space::open(), 1.0, 2, 1, |_, _| Some([0.0]))?)
-                .is_err()
-        );
+        // without walls the box is where they were: from 0 to 9.95, and the cells are a little smaller
+        let open = crate::over_time::sketch::tracks(Space::open(), 1.0, 200, 3, place)?;
+        close(&Coverage { share: 0.5, window: 120.0, interval: 1.0 }.on(&open)?.columns[3], &[4.0, 7.0, 9.0, 4.0]);
+        let still = crate::over_time::sketch::tracks(Space::open(), 1.0, 2, 1, |_, _| Some([3.0]))?;
+        close(&Coverage::default().on(&still)?.columns[3], &[1.0, 1.0, 1.0, 1.0]);
         Ok(())
     }
 }

@@ -35,6 +35,7 @@ over_time! {
     occupied_area::OccupiedArea;
     group_overlap::GroupOverlap;
     group_membership::GroupMembership;
+    nearest_neighbours::NearestNeighbours;
     collisions::Collisions;
     leadership::Leadership;
     group_events::GroupEvents;

@@ -1,15 +1,19 @@
 //! AnimalTA: semicolons between the cells, and either `Frame;Time;X_Arena0_Ind0;Y_Arena0_Ind0;...` or, detailed,
 //! `Frame;Time;Arena;Ind;X;Y;...`. Times are rounded to 0.01 s.
 
-use super::{Clock, Layout, Place, Plan, Point, Who};
+use super::{Clock, Layout, Place, Plan, Point, Who, asked_or};
 use crate::store::StoreError;
 use crate::tracks::Ask;
 use crate::tracks::text::Head;
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "animalta", about: "AnimalTA: coordinates by arena and individual, wide or detailed", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "animalta",
+    about: "AnimalTA: coordinates by arena and individual, wide or detailed",
+    takes: &["frame", "time"],
+    plan,
+};
 
-fn plan(head: &Head, _: &Ask) -> Result<Option<Plan>, StoreError> {
+fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let Some(names) = head.header() else { return Ok(None) };
     let names = names.to_vec();
     let at = |name: &str| names.iter().position(|other| other == name);
@@ -28,6 +32,7 @@ fn plan(head: &Head, _: &Ask) -> Result<Option<Plan>, StoreError> {
     if places.is_empty() {
         return Ok(None);
     }
-    let time = at("Time").map(|column| Clock { column, stamps: false });
-    Ok(Some(Plan { skip: 1, frame: at("Frame"), time, places, names, ..Plan::default() }))
+    let time = asked_or(head, &names, ask, "time", at("Time"))?.map(Clock::seconds);
+    let frame = asked_or(head, &names, ask, "frame", at("Frame"))?;
+    Ok(Some(Plan { skip: 1, frame, time, places, names, ..Plan::default() }))
 }

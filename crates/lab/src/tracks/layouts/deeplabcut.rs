@@ -6,8 +6,12 @@ use crate::store::StoreError;
 use crate::tracks::Ask;
 use crate::tracks::text::Head;
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "deeplabcut", about: "DeepLabCut and Lightning Pose: three or four header lines", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "deeplabcut",
+    about: "DeepLabCut and Lightning Pose: three or four header lines",
+    takes: &["point"],
+    plan,
+};
 
 fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let line = |name: &str| head.rows.iter().take(4).position(|row| row.first().is_some_and(|cell| cell == name));

@@ -5,10 +5,14 @@ use crate::store::StoreError;
 use crate::tracks::text::Head;
 use crate::tracks::{Ask, names, wrong};
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "long", about: "any long table: a row for each individual at each time", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "long",
+    about: "any long table: a row for each individual at each time",
+    takes: &["frame", "time", "id", "x", "y", "z", "longitude", "latitude", "vx", "vy", "vz", "clock"],
+    plan,
+};
 
-fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
+pub(super) fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let headed = head.header().is_some();
     let names: Vec<String> = match head.header() {
         Some(names) => names.to_vec(),
@@ -37,7 +41,7 @@ fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
         time = None;
     }
     let first = usize::from(headed);
-    let time = time.map(|column| Clock { column, stamps: head.holds_words(column, first) });
+    let time = time.map(|column| Clock::of(head, ask, &names, column, first)).transpose()?;
     let velocity: Option<Vec<usize>> = ["vx", "vy", "vz"][..axes.len()]
         .iter()
         .map(|role| at(role))
@@ -55,5 +59,5 @@ fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
 
 /// Whether a column of times counts seconds by its name.
 fn seconds(name: &str) -> bool {
-    matches!(names::plain(name).as_str(), "t" | "time" | "seconds" | "time_s" | "sec" | "time_sec")
+    matches!(names::untimed(name).as_str(), "t" | "time" | "seconds" | "sec")
 }

@@ -5,7 +5,7 @@
 
 mod animalta;
 mod deeplabcut;
-mod idtracker;
+pub(crate) mod idtracker;
 mod long;
 mod pedestrian;
 mod sleap;
@@ -22,6 +22,8 @@ pub struct Layout {
     pub id: &'static str,
     /// Who writes it, and how it looks.
     pub about: &'static str,
+    /// What can be said of its columns, of [`super::names::ROLES`] and [`super::names::CHOICES`].
+    pub takes: &'static [&'static str],
     /// The plan of a table; none where it is not of this layout.
     pub plan: fn(&Head, &Ask) -> Result<Option<Plan>, StoreError>,
 }
@@ -64,12 +66,29 @@ pub struct Plan {
 }
 
 /// A column of times.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
     /// The column.
     pub column: usize,
-    /// Whether it holds dates with a time of day in words; else numbers of seconds.
+    /// Whether it holds dates with a time of day in words; else numbers.
     pub stamps: bool,
+    /// Seconds in the unit of its numbers, where that is said; else they are taken for seconds.
+    pub unit: Option<f64>,
+}
+
+impl Clock {
+    /// A column of seconds.
+    pub fn seconds(column: usize) -> Self {
+        Self { column, stamps: false, unit: Some(1.0) }
+    }
+    /// A column of numbers or of time stamps, behind the rows that are skipped.
+    ///
+    /// # Errors
+    /// A unit of time that is not known.
+    fn of(head: &Head, ask: &Ask, names: &[String], column: usize, skip: usize) -> Result<Self, StoreError> {
+        let unit = super::names::time_unit_of(head, ask, &names[column])?;
+        Ok(Self { column, stamps: head.holds_words(column, skip), unit })
+    }
 }
 
 /// A place in a row.
@@ -145,8 +164,12 @@ impl Plan {
 /// # Errors
 /// A table of no known layout, or one that leaves something open; the message names the option that settles it.
 pub fn plan(head: &Head, ask: &Ask) -> Result<Plan, StoreError> {
+    // that there is no such column can be said of any table
+    let said = || ask.columns.iter().filter(|(_, name)| name != "none");
+    let unused = |layout: &Layout| said().find(|(role, _)| !layout.takes.contains(&role.as_str()));
     let layouts: Vec<&Layout> = match ask.layout.as_deref() {
-        None | Some("auto") => LIST.iter().collect(),
+        // who names columns means a layout that has use for the names
+        None | Some("auto") => LIST.iter().filter(|layout| unused(layout).is_none()).collect(),
         Some(id) => {
             let found = LIST.iter().find(|layout| layout.id == id);
             let found = found.ok_or_else(|| {
@@ -155,6 +178,13 @@ pub fn plan(head: &Head, ask: &Ask) -> Result<Plan, StoreError> {
                 let ids: Vec<&str> = ids.collect();
                 StoreError::Refused(format!("no layout is called `{id}`{near}; there are auto, {}", ids.join(", ")))
             })?;
+            if let Some((role, name)) = unused(found) {
+                let takes = found.takes.join(", ");
+                return Err(wrong(
+                    &head.path,
+                    &format!("a table of the layout `{id}` has no use for --columns {role}={name}; it takes {takes}"),
+                ));
+            }
             vec![found]
         }
     };
@@ -173,6 +203,17 @@ pub fn plan(head: &Head, ask: &Ask) -> Result<Plan, StoreError> {
     };
     let how = "name the columns, as in --columns frame=frame,id=fish,x=px,y=py (or by their numbers from 1)";
     Err(wrong(&head.path, &format!("no table of tracks that is known: {what}; {how}")))
+}
+
+/// The column that was asked for in a role, or the one that tables of a layout have.
+fn asked_or(
+    head: &Head,
+    names: &[String],
+    ask: &Ask,
+    role: &str,
+    own: Option<usize>,
+) -> Result<Option<usize>, StoreError> {
+    if ask.column(role).is_some() { super::names::column(head, names, ask, role) } else { Ok(own) }
 }
 
 /// The file of a folder that has the rest of what a table's producer says of it, read as JSON.

@@ -7,8 +7,12 @@ use crate::tracks::Ask;
 use crate::tracks::names::plain;
 use crate::tracks::text::Head;
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "pedestrian", about: "PeTrack and JuPedSim: id, frame, x, y, z under comments", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "pedestrian",
+    about: "PeTrack and JuPedSim: id, frame, x, y, z under comments",
+    takes: &["id", "frame", "x", "y", "z"],
+    plan,
+};
 
 fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let Some(columns) = head.rows.first().map(Vec::len).filter(|_| head.numeric(0)) else { return Ok(None) };

@@ -1,14 +1,18 @@
 //! TRex: a file for each individual, `VIDEO_fish0.csv` or `VIDEO_id0.csv`, with `frame`, `time`, `X#wcentroid (cm)`, ...;
 //! lost frames are infinite. Give the folder for all individuals of a recording.
 
-use super::{Clock, Layout, Place, Plan, Point, Who};
+use super::{Clock, Layout, Place, Plan, Point, Who, asked_or};
 use crate::store::StoreError;
 use crate::tracks::names::plain;
 use crate::tracks::text::Head;
 use crate::tracks::{Ask, wrong};
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "trex", about: "TRex: a file for each individual; give the folder", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "trex",
+    about: "TRex: a file for each individual; give the folder",
+    takes: &["point", "frame", "time"],
+    plan,
+};
 
 fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let Some(names) = head.header() else { return Ok(None) };
@@ -39,8 +43,8 @@ fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     let notes = vec![format!("positions of the {}", if *part == "head" { "head" } else { "weighted centroid" })];
     let who = Who::Name(individual(&head.stem()).unwrap_or_else(|| head.stem()));
     let place = Place { who, points: vec![Point::at(axes.to_vec())], velocity: None };
-    let time = at("time").map(|column| Clock { column, stamps: false });
-    let frame = at("frame");
+    let time = asked_or(head, &names, ask, "time", at("time"))?.map(Clock::seconds);
+    let frame = asked_or(head, &names, ask, "frame", at("frame"))?;
     Ok(Some(Plan { skip: 1, frame, time, places: vec![place], names, notes, ..Plan::default() }))
 }
 

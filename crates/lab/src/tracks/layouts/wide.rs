@@ -6,8 +6,12 @@ use crate::store::StoreError;
 use crate::tracks::text::{Head, number};
 use crate::tracks::{Ask, names, wrong};
 
-pub(super) const LAYOUT: Layout =
-    Layout { id: "wide", about: "any wide table: a row for each frame, individuals side by side", plan };
+pub(super) const LAYOUT: Layout = Layout {
+    id: "wide",
+    about: "any wide table: a row for each frame, individuals side by side",
+    takes: &["frame", "time", "id", "wide", "clock"],
+    plan,
+};
 
 pub(super) fn plan(head: &Head, ask: &Ask) -> Result<Option<Plan>, StoreError> {
     match head.header() {
@@ -73,7 +77,7 @@ fn named(head: &Head, ask: &Ask, names: Vec<String>) -> Result<Option<Plan>, Sto
     };
     let places = individuals.into_iter().map(place).collect();
     let (frame, time) = (at("frame")?, at("time")?);
-    let time = time.map(|column| Clock { column, stamps: head.holds_words(column, 1) });
+    let time = time.map(|column| Clock::of(head, ask, &names, column, 1)).transpose()?;
     Ok(Some(Plan { skip: 1, frame, time, places, names, ..Plan::default() }))
 }
 
