@@ -13,6 +13,7 @@ use lab::design::robustness::ROBUSTNESS;
 use lab::design::tables::{CANDIDATES, RATES, RESULTS, TRIALS};
 use lab::design::{self, Plan};
 use lab::environment::signal::SIGNALS;
+use lab::searched::{Designed, Searched};
 use serde_json::Value as Json;
 use std::io::Write;
 use std::path::Path;
@@ -125,6 +126,9 @@ impl Kind for Design {
             }
             _ => wrong(format!("`{}` has no feasible environment among the first", input.name)),
         }
+    }
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        Ok(Box::new(Designed::open(folder)?))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         let mut tables = vec![RATES, CANDIDATES, RESULTS, TRIALS];

@@ -8,6 +8,7 @@ use lab::map::execute::{self, REPORT};
 use lab::map::form::Map as Form;
 use lab::map::tables::{LEAVES, MEASURES};
 use lab::map::{self, Plan};
+use lab::searched::{Mapped, Searched};
 use serde_json::Value as Json;
 use std::io::Write;
 use std::path::Path;
@@ -78,6 +79,9 @@ impl Kind for Map {
         writeln!(out, "{} evaluations in {:.1} s", done.evaluations, done.seconds)?;
         told(&done.folder, out)?;
         Ok(0)
+    }
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        Ok(Box::new(Mapped::open(folder)?))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         execute::of_folder(folder)?;

@@ -2,9 +2,7 @@
 
 use super::plan::Plan;
 use super::results::{Results, Share};
-use crate::environment::trial::{Population, obstacles};
-use crate::file::write::toml;
-use crate::file::{Form, Node, Tree};
+use crate::environment::trial::{self, Population};
 use crate::store::StoreError;
 use crate::store::folder::{Folder, whole_file};
 use std::io::Write;
@@ -31,19 +29,8 @@ pub fn environment(plan: &Plan, construct: &Construct) -> Environment {
 
 /// The scenario of a trial: run with its seed it is that trial, bit by bit.
 pub fn scenario(plan: &Plan, population: &Population, construct: &Construct, seed: u64, title: &str) -> String {
-    let mut tree = population.tree.clone();
-    let span = tree.span.clone();
-    let mut put = |key: &str, value: Tree| {
-        // a table takes any key
-        let _ = tree.set(key, Node { tree: value, span: span.clone() });
-    };
-    put("title", title.into());
-    put("seed", seed.write());
     let geometry = plan.workspace.workspace.geometry.iter().chain(construct.geometry());
-    let mut all = population.scenario.obstacle.clone();
-    all.extend(obstacles(geometry));
-    put("obstacle", all.write());
-    toml(&tree)
+    trial::file(population, geometry, seed, title)
 }
 
 /// Writes the best environments of each group and behaviour.
