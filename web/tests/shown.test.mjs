@@ -270,6 +270,27 @@ describe("what is sent", () => {
     });
   });
 
+  test("every drawing of a report is copied as SVG with its data", async () => {
+    for (const [kind, selector, heads] of [["run", "[data-chart='0']", /^time/], ["run", ".scenes .moment", /^group,x,y,z/], ["design", ".moment", /^what,number,x,y,radius/], ["map", ".moment", /^angle_low,angle_high,length_low/]]) {
+      await watched(async (page) => {
+        await page.addInitScript(() => { Object.defineProperty(navigator, "clipboard", { value: { writeText: async (text) => { window.copied = text; } } }); });
+        const address = pathToFileURL(`${scratch}/${kind}/report.html`).href;
+        await page.goto(address);
+        await page.locator(`${selector} [data-do=copy-svg]`).first().click();
+        await page.waitForFunction(() => typeof window.copied === "string");
+        const { root, data, rows } = await page.evaluate(() => {
+          const read = new DOMParser().parseFromString(window.copied, "image/svg+xml");
+          const data = read.querySelector("metadata").textContent;
+          return { root: read.documentElement.tagName, data, rows: data.trim().split("\n").length };
+        });
+        assert.equal(root, "svg");
+        assert.match(data, heads, kind);
+        assert.ok(rows > 2, `${kind}: ${rows}`);
+        return address;
+      });
+    }
+  });
+
   test("pictures are made without a browser, and look as they should", async () => {
     run("export", `${scratch}/run`, "--to", "png", "--out", scratch, "--frame", "30");
     run("export", `${scratch}/run`, "--to", "svg", "--out", scratch);
