@@ -30,6 +30,7 @@ parts! {
     "paper.js": "text/javascript; charset=utf-8";
     "panel.js": "text/javascript; charset=utf-8";
     "picture.js": "text/javascript; charset=utf-8";
+    "plot.js": "text/javascript; charset=utf-8";
     "searched.js": "text/javascript; charset=utf-8";
     "sketch.js": "text/javascript; charset=utf-8";
     "solids.js": "text/javascript; charset=utf-8";
