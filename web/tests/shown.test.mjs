@@ -13,14 +13,15 @@ const root = fileURLToPath(new URL("../..", import.meta.url));
 const pictures = `${root}target/pages`;
 const scratch = mkdtempSync(`${tmpdir()}/flockworks-shown-`);
 const OF_THE_BROWSER = /GPU stall due to ReadPixels/;
-const THROWAWAY = process.env.FLOCKWORKS_PROGRAM;
+// a program that is built already; left out, it is built
+const GIVEN = process.env.FLOCKWORKS_PROGRAM;
 
 let browser, program;
 const run = (...words) => execFileSync(program, words, { cwd: root, stdio: ["ignore", "pipe", "pipe"] }).toString();
 
 before(async () => {
   mkdirSync(pictures, { recursive: true });
-  program = THROWAWAY;
+  program = GIVEN;
   if (!program) {
     const words = ["build", "--quiet", "--package", "flockworks", "--message-format=json"];
     const built = execFileSync(process.env.CARGO ?? "cargo", words, { cwd: root, maxBuffer: 1 << 26, stdio: ["ignore", "pipe", "inherit"] });
