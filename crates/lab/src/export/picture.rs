@@ -361,7 +361,7 @@ mod tests {
         let at = |y: f64| view.place(&[5.0, y, 0.0]).0[1];
         assert!(at(9.0) < at(1.0));
         let picture = Picture::of(&all.replay, 0, 401.0);
-        assert!(picture.wide % 2 == 0 && picture.tall % 2 == 0);
+        assert!(picture.wide.is_multiple_of(2) && picture.tall.is_multiple_of(2));
         let (view, _) = View::of(&recording(3, 2, 3).replay, 400.0);
         assert!(view.place(&[5.0, 5.0, 9.0]).0[1] < view.place(&[5.0, 5.0, 1.0]).0[1]);
     }

@@ -15,7 +15,6 @@ use crate::environment::workspace::{Picture, Units, Workspace, drawn};
 use crate::file::edit::with_values;
 use crate::file::kind::kind_of;
 use crate::file::tree::parse;
-use crate::file::write::inline;
 use crate::file::{Desk, Form as _, Problems, Rule, Sources};
 use crate::scenario::{self, build};
 use serde_json::{Value as Json, json};
@@ -158,8 +157,8 @@ pub fn save(target: Target, name: &str, base: &str, items: &[Item]) -> Result<Sa
             Ok(Saved { name: format!("{stem}-workspace.toml"), text, left_out: 0 })
         }
         Target::File if kind.is_some_and(|kind| WITH_WORKSPACE.contains(&kind)) => {
-            let form = places::form(&workspace_of(name, base)?, items);
-            let text = with_values(base, &[("workspace".to_owned(), inline(&form.write()))])?;
+            let before = workspace_of(name, base)?;
+            let text = with_values(base, &places::sets(&before, &places::form(&before, items)))?;
             workspace_of(name, &text)?
                 .resolved("")
                 .map_err(|wrong| format!("workspace.{}: {}", wrong.path, wrong.what))?;

@@ -2,6 +2,7 @@
 
 use super::item::{Form, Item};
 use crate::environment::workspace::{Base, Plane, Region, Units, Workspace};
+use crate::file::write::inline;
 use crate::file::{Form as _, Named, Node, Span, Tree};
 use crate::scenario::start::Region as Corners;
 use crate::scenario::surroundings::Ball;
@@ -148,6 +149,19 @@ pub(super) fn form(before: &Workspace, items: &[Item]) -> Workspace {
         }
     }
     form
+}
+
+/// The values that put a workspace into the text of a file: the keys that changed, or all of it where one is no longer there.
+pub(super) fn sets(before: &Workspace, after: &Workspace) -> Vec<(String, String)> {
+    let (before, after) = (before.write(), after.write());
+    let (Tree::Table(old), Tree::Table(new)) = (&before, &after) else { return Vec::new() };
+    if old.iter().any(|entry| new.iter().all(|other| other.key != entry.key)) {
+        return vec![("workspace".to_owned(), inline(&after))];
+    }
+    let there = |key: &str| old.iter().find(|entry| entry.key == *key).map(|entry| inline(&entry.node.tree));
+    let values = new.iter().map(|entry| (&entry.key, inline(&entry.node.tree)));
+    let changed = values.filter(|(key, value)| there(key).as_ref() != Some(value));
+    changed.map(|(key, value)| (format!("workspace.{key}"), value)).collect()
 }
 
 /// A tree with nothing but a workspace.
