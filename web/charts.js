@@ -1,6 +1,7 @@
 // Metrics as small charts under the scene, over one time line: the time shown, the time pointed at, and events.
 
-import { clamp, colours, element, one, titled, withUnit, written } from "./words.js";
+import { chartAsSvg } from "./plot.js";
+import { clamp, colours, element, one, save, say, titled, withUnit, written } from "./words.js";
 
 // beyond so many points every second one is dropped: the line looks the same
 const MOST_POINTS = 4000;
@@ -47,8 +48,10 @@ export class Charts {
       this.figures = this.metrics.map((metric, index) => {
         const canvas = element("canvas", { role: "img" });
         const value = element("span", { className: "now" });
+        const copy = element("button", { type: "button", className: "quiet copy", textContent: "Copy", title: `Copy ${metric.title} as SVG with its data` });
+        copy.addEventListener("click", () => this.copy(index, copy));
         const figure = element("figure", { tabIndex: 0, title: scene.isRun ? "Click or press Enter: go to this time. Arrow keys: read out." : "Arrow keys: read out." },
-          element("figcaption", {}, element("span", { className: "title", textContent: titled(metric.title, metric.unit) }), value), canvas);
+          element("figcaption", {}, element("span", { className: "title", textContent: titled(metric.title, metric.unit) }), value, copy), canvas);
         figure.dataset.metric = metric.id;
         canvas.addEventListener("pointermove", (event) => this.point(this.timeAt(canvas, event)));
         canvas.addEventListener("pointerleave", () => this.point(null));
@@ -95,6 +98,7 @@ export class Charts {
   point(t) { this.cursor = t; this.request(); }
 
   key(event) {
+    if (event.target.matches("button")) return;
     const times = this.panes[0]?.t ?? [];
     if (times.length === 0 || event.altKey || event.ctrlKey || event.metaKey) return;
     const at = nearest(times, this.cursor ?? this.now ?? times[0]);
@@ -133,6 +137,20 @@ export class Charts {
 
   repaint() { this.request(); }
 
+  linesOf(index) { return (this.panes ?? []).flatMap((pane, number) => [...(pane?.lines ?? [])].map(([name, all]) => ({ name, number, t: pane.t, y: all[index] ?? [] }))); }
+
+  /** Copies a chart as SVG with its data; where the browser does not allow that, saves it. */
+  async copy(index, button) {
+    const metric = this.metrics[index], lines = this.linesOf(index);
+    const named = lines.map(({ name, number, ...rest }) => ({ name: number > 0 ? `run ${number + 1}: ${name}` : name, ...rest }));
+    const svg = chartAsSvg(metric.title, metric.unit, this.unit, named, this.ends, metric.range);
+    let word = "Copied";
+    try { await navigator.clipboard.writeText(svg); } catch { save(`${metric.id}.svg`, svg, "image/svg+xml"); word = "Saved"; }
+    button.textContent = word;
+    say(`${metric.title}: ${word}`);
+    setTimeout(() => { button.textContent = "Copy"; }, 2000);
+  }
+
   draw() {
     const { css } = colours(), ends = this.ends;
     // with more than one line, the colours are those of the groups; what is of the whole world is neutral
@@ -148,7 +166,7 @@ export class Charts {
     canvas.height = Math.round(tall * ratio);
     const pen = canvas.getContext("2d");
     pen.scale(ratio, ratio);
-    const lines = (this.panes ?? []).flatMap((pane, number) => [...(pane?.lines ?? [])].map(([name, all]) => ({ name, number, t: pane.t, y: all[index] ?? [] })));
+    const lines = this.linesOf(index);
     let [low, high] = metric.range ?? [Infinity, -Infinity];
     if (!metric.range) {
       for (const line of lines) for (const y of line.y) if (y !== null && Number.isFinite(y)) [low, high] = [Math.min(low, y), Math.max(high, y)];

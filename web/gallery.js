@@ -36,7 +36,7 @@ export class Gallery {
         return;
       }
     }
-    const named = given.map((item, index) => ({ given: index, title: String(item.name), about: item.kind === "run" ? "A recorded run, named on the command line." : "A scenario, named on the command line." }));
+    const named = given.map((item, index) => ({ given: index, title: String(item.name), isSearch: item.kind === "search", about: item.kind === "search" ? `A folder: ${item.of}.` : item.kind === "run" ? "A recorded run, named on the command line." : "A scenario, named on the command line or dropped here." }));
     state.textContent = this.list.length + named.length === 0 ? "There is nothing in the gallery." : "";
     this.cards = [...named, ...this.list].map((item) => this.card(item));
     wall.replaceChildren(...this.cards.map(({ box }) => box));
@@ -56,10 +56,11 @@ export class Gallery {
     const button = element("button", { type: "button", className: "open", textContent: item.title ?? item.id });
     const box = element("li", { className: "card" }, canvas, element("h3", {}, button), about, element("p", { className: "facts-of", textContent: facts.filter(Boolean).join(" · ") }));
     canvas.setAttribute("aria-hidden", "true");
-    const card = { box, canvas, what: item.given === undefined ? { gallery: item.id } : { given: item.given }, isDrawn: false };
+    // of a search there is no single scene
+    const card = { box, canvas, what: item.given === undefined ? { gallery: item.id } : { given: item.given }, isSearch: item.isSearch === true, isDrawn: item.isSearch === true };
     box.dataset.id = item.id ?? `given-${item.given}`;
     button.addEventListener("click", () => this.openScenario(card.what));
-    const play = () => { if (!wantsCalm()) this.preview?.play(card); };
+    const play = () => { if (!wantsCalm() && !card.isSearch) this.preview?.play(card); };
     const stop = () => this.preview?.stop(card);
     box.addEventListener("pointerenter", play);
     box.addEventListener("pointerleave", stop);
@@ -82,7 +83,7 @@ export class Gallery {
   }
 
   repaint() {
-    for (const card of this.cards) card.isDrawn = false;
+    for (const card of this.cards) card.isDrawn = card.isSearch;
     if (!this.place.hidden) this.takeStills();
   }
 }

@@ -1,11 +1,13 @@
 // The page as a whole: what is open, what the buttons and keys do, and what is shown where.
 
 import { Charts } from "./charts.js";
+import { Draw } from "./drawing.js";
 import { Explanation } from "./explain.js";
 import { Gallery } from "./gallery.js";
 import { Pane } from "./pane.js";
 import { Panel } from "./panel.js";
 import { PairClock } from "./pair.js";
+import { Searches, answer } from "./searched.js";
 import { all, clamp, drawn, element, isNumber, one, oncePerPicture, paragraphs, save, say, wantsCalm, withUnit, written } from "./words.js";
 
 const root = document.documentElement;
@@ -15,7 +17,7 @@ const at = { title: one("h1"), state: one("#state"), notice: one("#notice"), los
   pace: one(".pace"), agent: one(".agent"), camera: one(".camera"), colour: one(".colour"), trails: one(".trails"), events: one("#events") };
 
 // the first pane is the one that panel, charts and time speak of; `active` is the one whose agent is explained
-let panes = [], active = null, given = null, clock = null, isAsking = false, program = "flockworks";
+let panes = [], active = null, given = null, clock = null, isAsking = false, drawsNext = false, program = "flockworks";
 const lead = () => panes[0] ?? null;
 const scene = () => lead()?.scene ?? null;
 const isRun = () => scene()?.isRun === true;
@@ -32,6 +34,8 @@ const showTheme = () => {
   for (const pane of panes) pane.repaint();
   charts.repaint();
   gallery.repaint();
+  searches.repaint();
+  draw.repaint();
 };
 const switchTheme = () => {
   root.dataset.theme = isDark() ? "light" : "dark";
@@ -68,6 +72,9 @@ const panel = new Panel(one("#parameters .controls"), (path, value) => { for (co
 const charts = new Charts(one(".charts"), (t) => seekTime(t));
 const explanation = new Explanation(one("#focal"));
 const gallery = new Gallery(one("#gallery"), (what) => { location.hash = what.gallery === undefined ? `given=${what.given}` : `gallery=${encodeURIComponent(what.gallery)}`; });
+const name = (text) => { at.title.textContent = text; document.title = text === "flockworks" ? text : `${text} · flockworks`; };
+const searches = new Searches(one("#searched"), (number, place) => { location.hash = new URLSearchParams({ given: number, ...place }); }, name);
+const draw = new Draw(one("#drawing"), { notice, name, open: (file, text) => give(file, text) });
 
 const PANEL_PAUSE = 100;
 let shownAt = -Infinity, shownFor = "", pictures = 0, countedFrom = performance.now();
@@ -101,6 +108,7 @@ const told = {
     showEvent(event);
   },
   file: (pane, text) => {
+    if (drawsNext) { drawsNext = false; draw.take("scenario.toml", text); location.hash = "draw"; return; }
     const name = pane.scene?.title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "") || "scenario";
     save(`${name}.toml`, text, "application/toml");
   },
@@ -126,11 +134,7 @@ const told = {
 const whereIs = (now, step) => (now.isRun ? `step ${step}, frame ${frameOf(step)} of ${now.frames - 1}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
 const frameOf = (step) => Math.round((step - scene().fromStep) / scene().everySteps);
 
-const showTitle = () => {
-  const titles = [...new Set(panes.map((pane) => pane.scene?.title).filter(Boolean))];
-  at.title.textContent = titles.join(" and ");
-  document.title = `${titles.join(" and ")} · flockworks`;
-};
+const showTitle = () => name([...new Set(panes.map((pane) => pane.scene?.title).filter(Boolean))].join(" and "));
 
 function showScene(now, isSame) {
   showTitle();
@@ -268,8 +272,11 @@ const forEachPane = (act) => panes.forEach(act);
 const follows = () => { const to = (lead()?.camera === "agent") ? "still" : "agent"; forEachPane((pane) => pane.setCamera(to)); showStatus(); };
 const flip = (box) => { box.checked = !box.checked; box.dispatchEvent(new Event("change")); };
 
+const searchOf = (words) => { const number = Number(words.get("given") ?? 0); return given?.[number]?.kind === "search" ? number : null; };
 const acts = {
   gallery: () => { location.hash = "all"; },
+  overview: () => { const number = searchOf(new URLSearchParams(location.hash.slice(1))); if (number !== null) location.hash = `given=${number}`; },
+  draw: () => { if (at.laboratory.hidden || isRun() || !lead()?.scene) location.hash = "draw"; else lead().send({ do: "save" }), drawsNext = true; },
   keys: () => one("#keys").showModal(),
   theme: switchTheme,
   dismiss: () => notice(""),
@@ -322,6 +329,8 @@ const KEYS = [
   ["T", "trails", { t: () => flip(at.trails) }],
   ["S", "save the scenario", { s: () => !isRun() && acts.save() }],
   ["M", "the gallery", { m: acts.gallery }],
+  ["U", "the overview of a search", { u: acts.overview }],
+  ["W", "draw", { w: acts.draw }],
   ["D", "light or dark", { d: switchTheme }],
   ["?", "this list", { "?": acts.keys }],
 ];
@@ -335,7 +344,7 @@ document.addEventListener("keydown", (event) => {
   if (own?.matches("select, textarea, input[type=number]") && event.key !== "Escape") return;
   if (own && ([" ", "Enter"].includes(event.key) || (own.matches("input[type=range]") && /^(Arrow|Page|Home|End)/.test(event.key)))) return;
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-  const isGeneral = ["m", "d", "?"].includes(key);
+  const isGeneral = ["m", "u", "w", "d", "?"].includes(key);
   if (at.laboratory.hidden && !isGeneral) return;
   const turn = event.shiftKey ? TURNS[key] : null;
   const act = turn ? () => forEachPane((pane) => pane.move(...turn)) : keyed[key];
@@ -356,8 +365,7 @@ function closePanes() {
 }
 
 function openPanes(openings) {
-  closePanes();
-  gallery.hide();
+  leave();
   at.laboratory.hidden = false;
   clock = openings.length > 1 ? new PairClock(() => panes, () => showStatus()) : null;
   at.screens.classList.toggle("pair", openings.length > 1);
@@ -373,15 +381,41 @@ function openPanes(openings) {
   showStatus();
 }
 
+/** Leaves whatever is shown. */
+function leave() {
+  closePanes();
+  gallery.hide();
+  searches.hide();
+  draw.hide();
+  at.laboratory.hidden = true;
+}
+
 /** Opens what the address says; without a word, what the command line named, or else the gallery. */
 function follow() {
   const words = new URLSearchParams(location.hash.slice(1));
   const isPair = given?.length === 2 && given.every(({ kind }) => kind === "run");
   const number = Number(words.get("given"));
+  const place = Object.fromEntries([...words].filter(([key]) => key !== "given").map(([key, value]) => [key, Number(value)]));
   const openings = words.has("gallery") ? [{ gallery: words.get("gallery") }]
-    : words.has("given") && Number.isInteger(number) ? [{ given: number }]
-      : words.has("all") ? [] : given === null ? null
-        : isPair ? [{ given: 0 }, { given: 1 }] : given.length === 1 ? [{ given: 0 }] : [];
+    : words.has("all") || words.has("draw") ? [] : given === null ? null
+      : words.has("given") && Number.isInteger(number) ? [{ given: number, at: place }]
+        : isPair ? [{ given: 0 }, { given: 1 }] : given.length === 1 ? [{ given: 0, at: {} }] : [];
+  const search = openings?.length === 1 ? searchOf(words) : null;
+  button("overview").hidden = search === null || Object.keys(place).length === 0;
+  if (search !== null && Object.keys(openings[0].at).length === 0) {
+    leave();
+    showConnection();
+    delete root.dataset.kind;
+    searches.show(search);
+    return;
+  }
+  if (words.has("draw")) {
+    leave();
+    showConnection();
+    delete root.dataset.kind;
+    draw.show();
+    return;
+  }
   // what the command line named, only the server knows
   isAsking = openings === null;
   if (isAsking) { openPanes([null]); return; }
@@ -389,14 +423,35 @@ function follow() {
   const asking = panes.length === 1 && panes[0].opened === null && panes[0].firstOpening === null;
   if (openings.length === 1 && asking && panes[0].connection.isOpen) { panes[0].open(openings[0]); return; }
   if (openings.length > 0) { openPanes(openings); return; }
-  closePanes();
+  leave();
   showConnection();
-  at.laboratory.hidden = true;
-  at.title.textContent = "flockworks";
-  document.title = "flockworks";
+  name("flockworks");
   delete root.dataset.kind;
   gallery.show(given ?? []);
 }
+
+// ------------------------------------------------ files that are dropped on the page
+
+/** Hands a file over to the server, and opens it. */
+async function give(name, text) {
+  try {
+    const { given: number, all } = await answer("given", { method: "POST", body: `${name.replaceAll("\n", " ")}\n${text}` });
+    given = all;
+    location.hash = `given=${number}`;
+  } catch (error) { notice(`${name} cannot be opened. ${error.message}`); }
+}
+
+document.addEventListener("dragover", (event) => { if (event.dataTransfer?.types.includes("Files")) { event.preventDefault(); root.dataset.drop = "over"; } });
+document.addEventListener("dragleave", (event) => { if (event.relatedTarget === null) delete root.dataset.drop; });
+document.addEventListener("drop", async (event) => {
+  delete root.dataset.drop;
+  const file = event.dataTransfer?.files[0];
+  if (!file) return;
+  event.preventDefault();
+  const text = await file.text();
+  // drawings are drawn on, all else is run; where one draws already, scenarios are too
+  if (/\.(svg|geojson|json|wkt)$/i.test(file.name) || !one("#drawing").hidden) { draw.take(file.name, text); location.hash = "draw"; } else give(file.name, text);
+});
 
 try { if (["light", "dark"].includes(localStorage.getItem(KEY))) root.dataset.theme = localStorage.getItem(KEY); } catch { /* the system's colours, then */ }
 preferred.addEventListener("change", showTheme);

@@ -466,6 +466,15 @@ describe("manners", () => {
     await page.getByText(/^t = /).first().waitFor();
   }));
 
+  test("a chart is copied as SVG with its data", () => opened({ named: ["run"], prepare: () => { Object.defineProperty(navigator, "clipboard", { value: { writeText: async (text) => { window.copied = text; } } }); } }, async ({ page }) => {
+    await shown(page);
+    await page.locator(".charts .copy").first().click();
+    await page.waitForFunction(() => typeof window.copied === "string");
+    const rows = await page.evaluate(() => new DOMParser().parseFromString(window.copied, "image/svg+xml").querySelector("metadata").textContent.trim().split("\n"));
+    assert.match(rows[0], /^line,/);
+    assert.ok(rows.length > 50 && rows.slice(1).every((row) => Number.isFinite(Number(row.split(",")[1]))));
+  }));
+
   test("every button and field has a name and a word of help", () => opened({}, async ({ page }) => {
     await shown(page);
     const bare = await page.locator("#laboratory button, #laboratory input, #laboratory select, header button").evaluateAll((list) => list

@@ -4,8 +4,9 @@ use crate::analyze::{AnalyzeOptions, analyze};
 use crate::bench::{BenchOptions, bench};
 use crate::conformance::{ConformanceOptions, conformance};
 use crate::eval::{EvalOptions, eval};
+use crate::export::{ExportOptions, export};
 use crate::fault::Fault;
-use crate::files::{self, CompletionsOptions, ExplainOptions, ExportOptions, KindOptions, ManOptions, SchemaOptions};
+use crate::files::{self, CompletionsOptions, ExplainOptions, KindOptions, ManOptions, SchemaOptions};
 use crate::kinds::study::{MergeOptions, merge};
 use crate::metrics::{MetricsOptions, metrics};
 use crate::models::{ModelsOptions, models};
@@ -54,7 +55,7 @@ pub enum Command {
     Report(ReportOptions),
     /// Join the folders that runs of one study with `--shard` left.
     Merge(MergeOptions),
-    /// Write the tables of a run in another form.
+    /// Write what is in a folder in another form: a page that plays offline, pictures, films, scenes in space, tables.
     Export(ExportOptions),
     /// List the metrics, or show one: definition, unit, source, parameters, edge cases.
     Metrics(MetricsOptions),
@@ -106,7 +107,7 @@ pub fn run(line: &Line, out: &mut dyn Write) -> Result<u8, Fault> {
         Command::Explain(options) => files::explain(options, out).map(|()| 0),
         Command::Report(options) => run::report(options, out).map(|()| 0),
         Command::Merge(options) => merge(options, out).map(|()| 0),
-        Command::Export(options) => files::export(options, out).map(|()| 0),
+        Command::Export(options) => export(options, out).map(|()| 0),
         Command::Metrics(options) => metrics(options, out).map(|()| 0),
         Command::Completions(options) => files::completions(options, out).map(|()| 0),
         Command::Man(options) => files::man(options, out).map(|()| 0),

@@ -1,12 +1,10 @@
-//! `flockworks new`, `schema`, `export`, `completions`, `man`: what helps with files.
+//! `flockworks new`, `schema`, `explain`, `completions`, `man`: what helps with files.
 
 use crate::command::Line;
 use crate::fault::Fault;
 use crate::kinds;
 use clap::{Args, CommandFactory, ValueEnum};
-use lab::store::folder::whole_file;
-use lab::store::table::Table as Stored;
-use lab::store::{StoreError, export as forms};
+use lab::store::StoreError;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -34,26 +32,6 @@ pub struct SchemaOptions {
     /// Form of the output.
     #[arg(long, value_enum, default_value = "json")]
     pub format: SchemaForm,
-}
-
-/// A form in which tables can be had.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Form {
-    /// Comma-separated values with a line of names: one file for each table.
-    Csv,
-}
-
-/// Options of `export`.
-#[derive(Args, Debug)]
-pub struct ExportOptions {
-    /// Folder of a complete run.
-    pub folder: PathBuf,
-    /// Form to export to.
-    #[arg(long, value_enum)]
-    pub to: Form,
-    /// Folder for the files; left out, the run's own.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
 }
 
 /// Options of `explain`.
@@ -105,29 +83,6 @@ pub fn schema(options: &SchemaOptions, out: &mut dyn Write) -> Result<(), Fault>
     match options.format {
         SchemaForm::Md => out.write_all(kind.reference().as_bytes())?,
         SchemaForm::Json => writeln!(out, "{}", serde_json::to_string_pretty(&kind.schema()).unwrap_or_default())?,
-    }
-    Ok(())
-}
-
-/// Writes the tables of a run in another form.
-///
-/// # Errors
-/// A folder that is of no complete run, or one that cannot be written to.
-pub fn export(options: &ExportOptions, out: &mut dyn Write) -> Result<(), Fault> {
-    let from = &options.folder;
-    let tables = kinds::of_folder(from)?.tables(from)?;
-    let to = options.out.as_ref().unwrap_or(from);
-    std::fs::create_dir_all(to).map_err(|error| StoreError::io("make the folder", to, error))?;
-    for name in tables {
-        let path = from.join(name);
-        if !path.exists() {
-            continue;
-        }
-        let table = Stored::open(&path)?;
-        let Form::Csv = options.to;
-        let target = to.join(name).with_extension("csv");
-        whole_file(&target, |file| forms::csv(&table, file))?;
-        writeln!(out, "{}: {} rows", target.display(), table.rows())?;
     }
     Ok(())
 }

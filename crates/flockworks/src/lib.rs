@@ -8,6 +8,7 @@ pub mod compositions;
 pub mod conformance;
 pub mod emit;
 pub mod eval;
+pub mod export;
 pub mod fault;
 pub mod files;
 pub mod json;

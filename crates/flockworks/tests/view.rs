@@ -313,3 +313,85 @@ fn wrong_input_is_refused_before_anything_is_served() {
     let taken = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
     refused(&["--port", &taken.local_addr().unwrap().port().to_string()], "cannot listen");
 }
+
+/// The answer to a POST with `Connection: close`.
+fn posted(port: u16, path: &str, origin: &str, body: &str) -> String {
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    let head = format!(
+        "POST {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: {origin}\r\nContent-Type: text/plain;charset=UTF-8\r\n\
+         Content-Length: {}\r\nConnection: close\r\n\r\n{body}",
+        body.len()
+    );
+    stream.write_all(head.as_bytes()).unwrap();
+    let mut answer = Vec::new();
+    stream.read_to_end(&mut answer).unwrap();
+    String::from_utf8_lossy(&answer).into_owned()
+}
+
+fn body(answer: &str) -> Value {
+    serde_json::from_str(answer.split_once("\r\n\r\n").unwrap().1).unwrap()
+}
+
+#[test]
+fn a_study_is_told_cell_by_cell_and_any_trial_is_simulated_again() {
+    let out = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("view-study");
+    let _ = std::fs::remove_dir_all(&out);
+    let run = Command::new(env!("CARGO_BIN_EXE_flockworks"))
+        .args([
+            "run",
+            &study("compositions/weights.toml"),
+            "--quick",
+            "--trials",
+            "1-2",
+            "--set",
+            "set.time.duration=70",
+        ])
+        .args(["--out", out.to_str().unwrap()])
+        .output()
+        .unwrap();
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    let server = served(&[out.to_str().unwrap()]);
+    let port = server.port;
+    let host = format!("127.0.0.1:{port}");
+    let overview = body(&got(port, "/search/0", &host));
+    assert_eq!((&overview["kind"], overview["levels"].as_array().unwrap().len()), (&json!("study"), 15));
+    let part = body(&got(port, "/search/0/part?reading=0", &host));
+    let values = part["cells"][3]["values"].as_array().unwrap();
+    assert!(values.len() == 2 && values.iter().all(Value::is_number), "{part}");
+    assert!(got(port, "/search/0/part?reading=99", &host).contains("there are 3"));
+    assert!(got(port, "/search/7", &host).starts_with("HTTP/1.1 404"));
+    assert!(got(port, "/search/0", "evil.example").starts_with("HTTP/1.1 403"));
+    let mut socket = socket(port, &format!("http://{host}")).unwrap();
+    let hello = until(&mut socket, "hello");
+    assert_eq!((&hello["given"][0]["kind"], &hello["given"][0]["of"]), (&json!("search"), &json!("study")));
+    tell(&mut socket, &json!({ "do": "open", "given": 0, "at": { "cell": 3, "trial": 2 } }));
+    let scene = until(&mut socket, "scene");
+    assert_eq!((&scene["seed"], &scene["kind"]), (&json!(3), &json!("live")));
+    tell(&mut socket, &json!({ "do": "open", "given": 0, "at": { "cell": 99, "trial": 2 } }));
+    assert!(until(&mut socket, "problem")["text"].as_str().unwrap().contains("no cell 99"));
+}
+
+#[test]
+fn files_and_sketches_are_taken_from_its_own_page_alone() {
+    let server = served(&[]);
+    let port = server.port;
+    let own = format!("http://127.0.0.1:{port}");
+    let mill = std::fs::read_to_string(study("gallery/mill.toml")).unwrap();
+    let given = posted(port, "/given", &own, &format!("mill.toml\n{mill}"));
+    assert_eq!(body(&given)["given"], 0, "{given}");
+    for path in ["/given", "/sketch", "/sketch/save"] {
+        assert!(posted(port, path, "http://evil.example", "a\nb").starts_with("HTTP/1.1 403"), "{path}");
+        let wrong = body(&posted(port, path, &own, "a.toml\nkind = \"nonsense\""));
+        assert!(wrong["problem"].is_string(), "{path}: {wrong}");
+    }
+    let corral = std::fs::read_to_string(study("gallery/corral.toml")).unwrap();
+    let sketch = body(&posted(port, "/sketch", &own, &format!("corral.toml\n{corral}")));
+    let mut items = sketch["items"].as_array().unwrap().clone();
+    items.push(json!({ "is": "wall", "points": [[90, 42], [90, 58]] }));
+    let asked = json!({ "as": "file", "name": "corral.toml", "base": corral, "items": items });
+    let saved = body(&posted(port, "/sketch/save", &own, &asked.to_string()));
+    let file = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("drawn.toml");
+    std::fs::write(&file, saved["text"].as_str().unwrap()).unwrap();
+    let check = Command::new(env!("CARGO_BIN_EXE_flockworks")).arg("check").arg(&file).output().unwrap();
+    assert_eq!(check.status.code(), Some(0), "{}", String::from_utf8_lossy(&check.stderr));
+}

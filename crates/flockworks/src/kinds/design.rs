@@ -13,6 +13,7 @@ use lab::design::robustness::ROBUSTNESS;
 use lab::design::tables::{CANDIDATES, RATES, RESULTS, TRIALS};
 use lab::design::{self, Plan};
 use lab::environment::signal::SIGNALS;
+use lab::searched::{Designed, Searched};
 use serde_json::Value as Json;
 use std::io::Write;
 use std::path::Path;
@@ -111,11 +112,13 @@ impl Kind for Design {
             (Some((attempt, construct)), Some(population)) => {
                 let title = format!("{}: candidate {attempt}", plan.form.title);
                 let seed = plan.seed_of(*attempt, 1);
-                let environment = export::environment(&plan, construct);
-                Ok((input.name.clone(), export::scenario(population, environment.geometry(), seed, &title)))
+                Ok((input.name.clone(), export::scenario(&plan, population, construct, seed, &title)))
             }
             _ => wrong(format!("`{}` has no feasible environment among the first", input.name)),
         }
+    }
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        Ok(Box::new(Designed::open(folder)?))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         let mut tables = vec![RATES, CANDIDATES, RESULTS, TRIALS];

@@ -10,6 +10,7 @@ use lab::evolution::form::Evolution as Form;
 use lab::evolution::tables::{CANDIDATES, CHAMPIONS, CONTEST, GENERATIONS};
 use lab::evolution::{self, Variants};
 use lab::file::write::toml;
+use lab::searched::{Evolved, Searched};
 use serde_json::Value as Json;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -92,6 +93,9 @@ impl Kind for Evolution {
         // the world as it is with the references: a champion's is a scenario file of its own
         let variants = read(input, false)?;
         Ok((input.name.clone(), toml(&variants.first().tree)))
+    }
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        Ok(Box::new(Evolved::open(folder)?))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         let variants = execute::of_folder(folder)?;

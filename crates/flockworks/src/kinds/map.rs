@@ -8,6 +8,7 @@ use lab::map::execute::{self, REPORT};
 use lab::map::form::Map as Form;
 use lab::map::tables::{LEAVES, MEASURES};
 use lab::map::{self, Plan};
+use lab::searched::{Mapped, Searched};
 use serde_json::Value as Json;
 use std::io::Write;
 use std::path::Path;
@@ -68,6 +69,9 @@ impl Kind for Map {
             seconds: done.seconds,
         };
         end.tell(out, |out| told(&done.folder, out))
+    }
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        Ok(Box::new(Mapped::open(folder)?))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         execute::of_folder(folder)?;

@@ -17,6 +17,7 @@ use crate::view::ViewOptions;
 use lab::file::Problems;
 use lab::file::kind::kind_of;
 use lab::live::{LiveError, Shown};
+use lab::searched::Searched;
 use lab::store::folder;
 use serde_json::Value as Json;
 use std::io::{IsTerminal, Write};
@@ -73,12 +74,16 @@ pub trait Kind: Sync {
         let _ = options;
         wrong(format!("`{}` is of the kind {}, of which there is nothing to look at", input.name, self.id()))
     }
+    /// Whether its folders hold recordings.
+    fn records(&self) -> bool {
+        false
+    }
     /// How many recordings there are to look at in a complete folder.
     ///
     /// # Errors
     /// A folder that is not complete, or of a kind that records nothing.
     fn recordings(&self, folder: &Path) -> Result<usize, Fault> {
-        let what = "is no folder of a single run; view the file, and of a study name --cell and --trial";
+        let what = "holds no recording of a single run";
         wrong(format!("`{}` {what}", folder.display()))
     }
     /// One of them.
@@ -87,6 +92,13 @@ pub trait Kind: Sync {
     /// A folder that is not complete, or has no such recording.
     fn show(&self, folder: &Path, recording: usize) -> Result<Box<dyn Shown>, LiveError> {
         Err(LiveError::Request(format!("`{}` has no recording {recording}", folder.display())))
+    }
+    /// A folder of a search to be looked at, complete or not.
+    ///
+    /// # Errors
+    /// A folder that cannot be read, or of a kind that is no search.
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        wrong(format!("`{}` holds a {}, which is no search", folder.display(), self.id()))
     }
     /// The tables of a complete folder, by file name.
     ///
@@ -122,10 +134,18 @@ pub fn find(id: &str) -> Result<&'static dyn Kind, Fault> {
 /// # Errors
 /// A file that cannot be read, or of a kind that is not known.
 pub fn read(file: &str, sets: &[String]) -> Result<(&'static dyn Kind, Input), Fault> {
-    let text = text_of(file)?;
-    let kind = kind_of(file, &text, &ids()).map_err(|problems| shown(&problems))?;
+    let (kind, input) = read_text(file, &text_of(file)?)?;
+    Ok((kind, Input { sets: sets.to_vec(), ..input }))
+}
+
+/// A file that came as text, and which kind it is.
+///
+/// # Errors
+/// A kind that is not known.
+pub fn read_text(name: &str, text: &str) -> Result<(&'static dyn Kind, Input), Fault> {
+    let kind = kind_of(name, text, &ids()).map_err(|problems| shown(&problems))?;
     let kind = find(kind.unwrap_or(LIST[0].id()))?;
-    Ok((kind, Input { name: file.to_owned(), text, sets: sets.to_vec() }))
+    Ok((kind, Input { name: name.to_owned(), text: text.to_owned(), sets: Vec::new() }))
 }
 
 /// The kind of file that a folder comes from.

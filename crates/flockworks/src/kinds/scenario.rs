@@ -49,6 +49,9 @@ impl Kind for Scenario {
         let read = run::scenario(input)?;
         Ok((input.name.clone(), read.sources.text(0).to_owned()))
     }
+    fn records(&self) -> bool {
+        true
+    }
     fn recordings(&self, folder: &Path) -> Result<usize, Fault> {
         run::read_back(folder).map(|_| 1)
     }

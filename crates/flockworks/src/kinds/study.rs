@@ -6,7 +6,7 @@ use crate::run::{self, INTERRUPTED, PROGRAM, QUIET, RunOptions, rate, text_of};
 use crate::view::ViewOptions;
 use clap::Args;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use lab::file::{Node, Tree, write::toml};
+use lab::searched::{Searched, Studied};
 use lab::study::claims::{Judgement, Verdict};
 use lab::study::execute::{self, CELLS, End, REPORT, Selection, TRIALS};
 use lab::study::form::{Strength, Study as Form};
@@ -149,6 +149,9 @@ impl Kind for Study {
         let plan = read(input, false)?;
         scenario_of(&plan, options.cell.as_deref().unwrap_or("1"), options.trial.unwrap_or(1))
     }
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        Ok(Box::new(Studied::open(folder)?))
+    }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         execute::of_folder(folder)?;
         if !folder.join(CELLS).exists() {
@@ -254,16 +257,7 @@ fn scenario_of(plan: &Plan, cell: &str, trial: usize) -> Result<(String, String)
     if trial == 0 {
         return wrong("trials count from 1");
     }
-    let own = &plan.cells[*index];
-    let mut tree = plan.conditions[own.condition].tree.clone();
-    let title = format!("{}: {}, trial {trial}", plan.title, plan.name_of(own));
-    let values = [("title", Tree::Text(title)), ("seed", Tree::Whole(plan.seed_of(trial) as i64))];
-    for (key, value) in values {
-        let node = Node { tree: value, span: tree.span.clone() };
-        tree.set(key, node).map_err(Fault::Ours)?;
-    }
-    let stem = Path::new(plan.sources.name(0)).file_stem().and_then(|stem| stem.to_str()).unwrap_or("study");
-    Ok((format!("{stem}-cell-{}-trial-{trial}.toml", index + 1), toml(&tree)))
+    lab::searched::trial(plan, *index, trial).map_err(Fault::Ours)
 }
 
 /// Seconds for which the speed of a condition is measured.

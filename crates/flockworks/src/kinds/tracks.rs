@@ -72,6 +72,9 @@ impl Kind for Tracks {
         analyze::run(&job, out)?;
         Ok(0)
     }
+    fn records(&self) -> bool {
+        true
+    }
     fn recordings(&self, path: &Path) -> Result<usize, Fault> {
         let manifest = folder::manifest_of(path)?;
         Ok(manifest.get("recordings").and_then(Json::as_array).map_or(0, Vec::len))

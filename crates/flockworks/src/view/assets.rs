@@ -16,17 +16,25 @@ parts! {
     "camera.js": "text/javascript; charset=utf-8";
     "charts.js": "text/javascript; charset=utf-8";
     "connection.js": "text/javascript; charset=utf-8";
+    "design.js": "text/javascript; charset=utf-8";
     "draw.js": "text/javascript; charset=utf-8";
+    "drawing.js": "text/javascript; charset=utf-8";
+    "evolution.js": "text/javascript; charset=utf-8";
     "explain.js": "text/javascript; charset=utf-8";
     "frame.js": "text/javascript; charset=utf-8";
     "gallery.js": "text/javascript; charset=utf-8";
     "main.js": "text/javascript; charset=utf-8";
+    "map.js": "text/javascript; charset=utf-8";
     "pair.js": "text/javascript; charset=utf-8";
     "pane.js": "text/javascript; charset=utf-8";
+    "paper.js": "text/javascript; charset=utf-8";
     "panel.js": "text/javascript; charset=utf-8";
     "picture.js": "text/javascript; charset=utf-8";
+    "plot.js": "text/javascript; charset=utf-8";
+    "searched.js": "text/javascript; charset=utf-8";
     "sketch.js": "text/javascript; charset=utf-8";
     "solids.js": "text/javascript; charset=utf-8";
+    "study.js": "text/javascript; charset=utf-8";
     "trails.js": "text/javascript; charset=utf-8";
     "words.js": "text/javascript; charset=utf-8";
 }

@@ -1,9 +1,10 @@
-//! `flockworks view`: a page on loopback that shows a world while it runs, or a run that was recorded.
+//! `flockworks view`: a page on loopback that shows a world while it runs, a run that was recorded, or a search.
 //!
 //! The messages are those of `docs/explanation/viewer-protocol.md`. Each connection has a session of its own, on a thread
 //! of its own.
 
 mod assets;
+mod requests;
 mod session;
 
 use crate::fault::{Fault, wrong};
@@ -11,22 +12,23 @@ use crate::kinds;
 use crate::run::PROGRAM;
 use axum::Router;
 use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade};
-use axum::extract::{Path as Part, State};
+use axum::extract::{DefaultBodyLimit, Path as Part, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use axum::routing::get;
+use axum::routing::{get, post};
 use clap::Args;
-use serde_json::json;
+use lab::searched::Searched;
+use serde_json::{Value as Json, json};
 use session::{Outgoing, Session};
 use std::io::Write;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError, RwLock};
 
 /// Options of `view`.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub struct ViewOptions {
-    /// A scenario or study file, or the folder of a complete run; two of them are shown side by side. Without any, the gallery.
+    /// A file of any kind, or the folder of a run or search; two runs are shown side by side. Without any, the gallery.
     #[arg(num_args = 0..=2)]
     pub what: Vec<PathBuf>,
     /// Port. Left out, a free one is chosen.
@@ -49,26 +51,59 @@ pub struct ViewOptions {
     pub threads: usize,
 }
 
-/// Something the command line named.
-#[derive(Clone, Debug)]
+/// Something the command line named, or a file that was dropped on the page.
+#[derive(Clone)]
 pub(crate) enum Given {
     /// A scenario: name and text.
     Scenario(String, String),
     /// The folder of a run, and which of its recordings.
     Run(PathBuf, usize),
+    /// A search: name of its folder, kind, and what is known of it.
+    Search(String, &'static str, Arc<dyn Searched>),
+}
+
+impl Given {
+    /// As the page is told of it.
+    fn told(&self) -> Json {
+        match self {
+            Self::Scenario(name, _) => json!({ "kind": "scenario", "name": name }),
+            Self::Run(path, _) => json!({ "kind": "run", "name": path.display().to_string() }),
+            Self::Search(name, kind, _) => json!({ "kind": "search", "name": name, "of": kind }),
+        }
+    }
 }
 
 /// What all connections share.
 pub(crate) struct Shared {
-    given: Vec<Given>,
+    given: RwLock<Vec<Given>>,
     threads: usize,
     port: u16,
     /// Whether the user let other machines in.
     open_to_others: bool,
 }
 
+impl Shared {
+    /// What was given, by its number.
+    fn given(&self, number: usize) -> Option<Given> {
+        // one who panicked while holding it has changed nothing
+        self.given.read().unwrap_or_else(PoisonError::into_inner).get(number).cloned()
+    }
+    /// All that was given, as the page is told of it.
+    fn told(&self) -> Vec<Json> {
+        self.given.read().unwrap_or_else(PoisonError::into_inner).iter().map(Given::told).collect()
+    }
+    /// Adds a scenario; its number.
+    fn add(&self, name: String, text: String) -> usize {
+        let mut given = self.given.write().unwrap_or_else(PoisonError::into_inner);
+        given.push(Given::Scenario(name, text));
+        given.len() - 1
+    }
+}
+
 /// Largest message from the page, in bytes.
 const LARGEST: usize = 64 << 10;
+/// Largest file that may be dropped on the page, in bytes.
+const LARGEST_FILE: usize = 8 << 20;
 /// Messages that may wait for a slow page before it is given up.
 const WAITING: usize = 512;
 
@@ -83,7 +118,12 @@ pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let mut given = Vec::new();
     for path in &options.what {
         if path.is_dir() {
-            let recordings = kinds::of_folder(path)?.recordings(path)?;
+            let kind = kinds::of_folder(path)?;
+            if !kind.records() {
+                given.push(Given::Search(path.display().to_string(), kind.id(), kind.search(path)?.into()));
+                continue;
+            }
+            let recordings = kind.recordings(path)?;
             // the recordings of one folder are shown as two folders are, side by side
             let shown = if options.what.len() == 1 { recordings.min(2) } else { 1 };
             given.extend((0..shown).map(|recording| Given::Run(path.clone(), recording)));
@@ -118,12 +158,18 @@ async fn serve(options: &ViewOptions, given: Vec<Given>, out: &mut dyn Write) ->
     if options.open {
         open(&address, out)?;
     }
-    let shared = Arc::new(Shared { given, threads: options.threads, port, open_to_others });
+    let shared = Arc::new(Shared { given: RwLock::new(given), threads: options.threads, port, open_to_others });
     let router = Router::new()
         .route("/", get(page))
         .route("/gallery.json", get(gallery))
         .route("/ws", get(socket))
+        .route("/search/{given}", get(requests::overview))
+        .route("/search/{given}/part", get(requests::part))
+        .route("/given", post(requests::give))
+        .route("/sketch", post(requests::sketch))
+        .route("/sketch/save", post(requests::save))
         .route("/{name}", get(asset))
+        .layer(DefaultBodyLimit::max(LARGEST_FILE))
         .with_state(shared);
     // a second Ctrl-C is not needed: nothing is written that could be lost
     let stop = async {

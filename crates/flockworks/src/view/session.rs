@@ -3,6 +3,7 @@
 use super::{Given, Shared};
 use crate::kinds;
 use lab::live::{LiveError, Shown, simulate};
+use lab::searched::At;
 use serde_json::{Value as Json, json};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
@@ -100,16 +101,7 @@ impl Session {
     }
     /// Talks to the page until it is gone.
     pub(super) fn run(mut self, from: &Receiver<String>) {
-        let given: Vec<Json> = self
-            .shared
-            .given
-            .iter()
-            .map(|given| match given {
-                Given::Scenario(name, _) => json!({ "kind": "scenario", "name": name }),
-                Given::Run(path, _) => json!({ "kind": "run", "name": path.display().to_string() }),
-            })
-            .collect();
-        self.tell(&json!({ "is": "hello", "program": self.program, "given": given }));
+        self.tell(&json!({ "is": "hello", "program": self.program, "given": self.shared.told() }));
         while !self.lost {
             match from.recv_timeout(self.wait()) {
                 Ok(text) => {
@@ -242,11 +234,15 @@ impl Session {
             (simulate(built.id, built.text, &[], None, threads)?, false)
         } else {
             let at = message.get("given").and_then(Json::as_u64).unwrap_or(0) as usize;
-            match self.shared.given.get(at) {
-                Some(Given::Scenario(name, text)) => (simulate(name, text, &[], None, threads)?, false),
+            match self.shared.given(at) {
+                Some(Given::Scenario(name, text)) => (simulate(&name, &text, &[], None, threads)?, false),
                 Some(Given::Run(path, recording)) => {
-                    let kind = kinds::of_folder(path).map_err(|fault| LiveError::Request(fault.to_string()))?;
-                    (kind.show(path, *recording)?, true)
+                    let kind = kinds::of_folder(&path).map_err(|fault| LiveError::Request(fault.to_string()))?;
+                    (kind.show(&path, recording)?, true)
+                }
+                Some(Given::Search(_, _, search)) => {
+                    let watched = search.scenario(&At::of(message.get("at").unwrap_or(&Json::Null)))?;
+                    (simulate(&watched.name, &watched.text, &[], watched.seed, threads)?, false)
                 }
                 None => return Err(LiveError::Request("the command line named nothing to open".into())),
             }

@@ -12,7 +12,7 @@ use crate::environment::work::{Watch, packed, spread, unpacked};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
 use crate::store::job::{Job, Kind};
-use crate::store::log::Log;
+use crate::store::log::{Log, Record};
 use crate::store::texts::Texts;
 use measure::behaviours::Behaviour;
 use measure::statistics::Decision;
@@ -169,8 +169,34 @@ fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, BTreeMap<u64, Vec<Trials
     }
     let (mut log, records) = Log::open(&path)?;
     log.keep_until(records.last())?;
+    let (there, copies) = known(&mut log, &records, &path, plan)?;
+    Ok((log, there, copies))
+}
+
+/// The design in a folder with what is known of its candidates, as one looks at it: nothing is written.
+///
+/// # Errors
+/// A folder that holds none, or one that cannot be read.
+pub fn look(path: &Path) -> Result<(Plan, BTreeMap<u64, Vec<Trials>>), StoreError> {
+    let plan = of_folder(path)?;
+    let path = path.join(LOG);
+    if !path.exists() {
+        return Ok((plan, BTreeMap::new()));
+    }
+    let (mut log, records) = Log::open_to_read(&path)?;
+    let (there, _) = known(&mut log, &records, &path, &plan)?;
+    Ok((plan, there))
+}
+
+/// What the records of a log hold: trials by candidate, changed copies.
+fn known(
+    log: &mut Log,
+    records: &[Record],
+    path: &Path,
+    plan: &Plan,
+) -> Result<(BTreeMap<u64, Vec<Trials>>, Copies), StoreError> {
     let (mut there, mut copies) = (BTreeMap::new(), Copies::new());
-    for record in &records {
+    for record in records {
         let words = unpacked(&log.read(record)?);
         let damaged = || StoreError::Damaged(format!("a record in `{}` is no candidate", path.display()));
         match (record.kind, words.as_slice()) {
@@ -184,7 +210,7 @@ fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, BTreeMap<u64, Vec<Trials
             _ => return Err(damaged()),
         }
     }
-    Ok((log, there, copies))
+    Ok((there, copies))
 }
 
 /// A record: the attempt, then for each group the numbers of trials with and without the construct, then trial by trial the

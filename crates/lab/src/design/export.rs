@@ -2,14 +2,12 @@
 
 use super::plan::Plan;
 use super::results::{Results, Share};
-use crate::environment::trial::{Population, obstacles};
-use crate::file::write::toml;
-use crate::file::{Form, Node, Tree};
+use crate::environment::trial::{self, Population};
 use crate::store::StoreError;
 use crate::store::folder::{Folder, whole_file};
 use std::io::Write;
 use terrain::text::{geojson, svg};
-use terrain::{Construct, Environment, Geometry};
+use terrain::{Construct, Environment};
 
 /// The folder of exported environments, inside that of the design.
 pub const ENVIRONMENTS: &str = "environments";
@@ -30,24 +28,9 @@ pub fn environment(plan: &Plan, construct: &Construct) -> Environment {
 }
 
 /// The scenario of a trial: run with its seed it is that trial, bit by bit.
-pub fn scenario<'a>(
-    population: &Population,
-    geometry: impl IntoIterator<Item = &'a Geometry>,
-    seed: u64,
-    title: &str,
-) -> String {
-    let mut tree = population.tree.clone();
-    let span = tree.span.clone();
-    let mut put = |key: &str, value: Tree| {
-        // a table takes any key
-        let _ = tree.set(key, Node { tree: value, span: span.clone() });
-    };
-    put("title", title.into());
-    put("seed", seed.write());
-    let mut all = population.scenario.obstacle.clone();
-    all.extend(obstacles(geometry));
-    put("obstacle", all.write());
-    toml(&tree)
+pub fn scenario(plan: &Plan, population: &Population, construct: &Construct, seed: u64, title: &str) -> String {
+    let geometry = plan.workspace.workspace.geometry.iter().chain(construct.geometry());
+    trial::file(population, geometry, seed, title)
 }
 
 /// Writes an environment as SVG, GeoJSON, and a scenario that is a trial in it.
@@ -67,7 +50,7 @@ pub fn environment_files(
     for (ending, text) in [
         ("svg", svg::write(environment)),
         ("geojson", geojson::write(environment)),
-        ("toml", scenario(population, environment.geometry(), seed, title)),
+        ("toml", trial::file(population, environment.geometry(), seed, title)),
     ] {
         let path = below.join(format!("{stem}.{ending}"));
         whole_file(&path, |out| {

@@ -1,6 +1,7 @@
 //! One trial: a group in an environment with one seed, stepped until nothing that is asked can change any more.
 
-use crate::file::{Named, Node};
+use crate::file::write::toml;
+use crate::file::{Form, Named, Node, Tree};
 use crate::form;
 use crate::scenario::build::{self, Wrong};
 use crate::scenario::surroundings::{Ball, Obstacle, ObstacleShape, Segment};
@@ -94,6 +95,27 @@ pub fn obstacles<'a>(geometry: impl IntoIterator<Item = &'a Geometry>) -> Vec<Ob
     // what is no possible obstacle has been refused where the environment was read
     let shapes = geometry.into_iter().flat_map(|geometry| geometry.shapes().unwrap_or_default());
     shapes.filter_map(written).map(obstacle).collect()
+}
+
+/// The scenario file of a trial among this geometry: run with its seed it is that trial, bit by bit.
+pub fn file<'a>(
+    population: &Population,
+    geometry: impl IntoIterator<Item = &'a Geometry>,
+    seed: u64,
+    title: &str,
+) -> String {
+    let mut tree = population.tree.clone();
+    let span = tree.span.clone();
+    let mut put = |key: &str, value: Tree| {
+        // a table takes any key
+        let _ = tree.set(key, Node { tree: value, span: span.clone() });
+    };
+    put("title", title.into());
+    put("seed", seed.write());
+    let mut all = population.scenario.obstacle.clone();
+    all.extend(obstacles(geometry));
+    put("obstacle", all.write());
+    toml(&tree)
 }
 
 /// What came of a behaviour in a trial.

@@ -53,7 +53,7 @@ pub fn generation(
     match &plan.shared {
         Some(shared) => {
             let scenario = owned(plan, shared, candidates);
-            let end = ended(plan, &scenario, child_seed(seed, WORLD, number, 0), stop)?;
+            let end = ended(plan, &scenario, world_seed(seed, number), stop)?;
             end.map(|end| {
                 let mut evaluated = of_shared(plan, shared, &end)?;
                 if shared.rival.is_some() {
@@ -65,6 +65,11 @@ pub fn generation(
         }
         None => own_worlds(plan, candidates, plan.form.trials, threads, stop, |trial| seed.wrapping_add(trial as u64)),
     }
+}
+
+/// The seed of the world that the candidates of a generation share.
+pub fn world_seed(seed: u64, generation: u64) -> u64 {
+    child_seed(seed, WORLD, generation, 0)
 }
 
 /// For what candidates are tried again.

@@ -12,7 +12,7 @@ use super::{report, tables};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
 use crate::store::job::{Job, Kind};
-use crate::store::log::Log;
+use crate::store::log::{Log, Record};
 use crate::store::texts::Texts;
 use core::ops::{ControlFlow, Range};
 use search::elites::{Elites, Told};
@@ -259,15 +259,49 @@ struct History {
 
 fn opened(folder: &Folder, variants: &Variants) -> Result<History, StoreError> {
     let path = folder.file(HISTORY);
-    let (each, count) = (variants.runs(), variants.plans.len());
-    let (mut runs, mut tried) = (vec![Run::default(); each * count], vec![Tried::new(); count]);
     if !path.exists() {
+        let (runs, tried) = nothing(variants);
         return Ok(History { log: Log::create(&path)?, runs, tried });
     }
     let (mut log, records) = Log::open(&path)?;
     log.keep_until(records.last())?;
+    let (runs, tried) = known(&mut log, &records, &path, variants)?;
+    Ok(History { log, runs, tried })
+}
+
+/// The evolution in a folder with what is known of its runs, variant by variant, as one looks at it: nothing is written.
+///
+/// # Errors
+/// A folder that holds none, or one that cannot be read.
+pub fn look(path: &Path) -> Result<(Variants, Vec<Run>), StoreError> {
+    let variants = of_folder(path)?;
+    let path = path.join(HISTORY);
+    if !path.exists() {
+        let (runs, _) = nothing(&variants);
+        return Ok((variants, runs));
+    }
+    let (mut log, records) = Log::open_to_read(&path)?;
+    let (runs, _) = known(&mut log, &records, &path, &variants)?;
+    Ok((variants, runs))
+}
+
+/// Runs and contenders of which nothing is known.
+fn nothing(variants: &Variants) -> (Vec<Run>, Vec<Tried>) {
+    let count = variants.plans.len();
+    (vec![Run::default(); variants.runs() * count], vec![Tried::new(); count])
+}
+
+/// What the records of a log hold of the runs and of contenders.
+fn known(
+    log: &mut Log,
+    records: &[Record],
+    path: &Path,
+    variants: &Variants,
+) -> Result<(Vec<Run>, Vec<Tried>), StoreError> {
+    let each = variants.runs();
+    let (mut runs, mut tried) = nothing(variants);
     let damaged = || StoreError::Damaged(format!("a record in `{}` is no generation", path.display()));
-    for record in &records {
+    for record in records {
         let bytes = log.read(record)?;
         let (variant, run, number, words) = unpacked(&bytes).ok_or_else(damaged)?;
         let plan = variants.plans.get(variant).ok_or_else(damaged)?;
@@ -294,7 +328,7 @@ fn opened(folder: &Folder, variants: &Variants) -> Result<History, StoreError> {
     for (k, run) in runs.iter_mut().enumerate() {
         run.generations.truncate(variants.plans[k / each].generations);
     }
-    Ok(History { log, runs, tried })
+    Ok((runs, tried))
 }
 
 /// Holds what is missing of the contests. None where it was stopped; empty where there are none.

@@ -64,8 +64,25 @@ fn put(at: &mut Item, parts: &[&str], value: Value) -> Result<(), String> {
         }
         table.insert(first, empty);
     }
+    if rest.is_empty() {
+        let above = table.get(first).and_then(above);
+        if let (Some(above), Some(mut key)) = (above, table.key_mut(first)) {
+            key.fmt();
+            key.leaf_decor_mut().set_prefix(above);
+        }
+    }
     let below = table.get_mut(first).ok_or("no such key")?;
     put(below, rest, value)
+}
+
+/// What stands above a section, comments for one: where the section becomes a line, it stays above that.
+fn above(item: &Item) -> Option<String> {
+    let table = match item {
+        Item::Table(table) => table,
+        Item::ArrayOfTables(list) => list.get(0)?,
+        Item::None | Item::Value(_) => return None,
+    };
+    Some(table.decor().prefix().and_then(|above| above.as_str()).unwrap_or_default().to_owned())
 }
 
 #[cfg(test)]
@@ -83,6 +100,11 @@ mod tests {
         assert!(set("b.word.x.deep", "\"y\"").contains("word = { x = { deep = \"y\" } }"));
         assert!(set("list.0.e", "4").contains("e = 4"));
         assert!(set("fresh.deep.er", "1").contains("er = 1"));
+        let whole = with_values("a = 1\n\n# why\n[b]\nc = 2\n", &[("b".into(), "{ d = 3 }".into())]).unwrap();
+        assert_eq!(
+            whole, "a = 1\n\n# why\nb = { d = 3 }\n",
+            "a section that becomes a line keeps what stands above it"
+        );
         assert!(with_values(text, &[("a.b".into(), "1".into())]).unwrap_err().contains("no table"));
         assert!(with_values(text, &[("a".into(), "{".into())]).is_err());
     }

@@ -19,6 +19,11 @@ pub fn toml(tree: &Node) -> String {
     text
 }
 
+/// The text of a value, in one line.
+pub fn inline(tree: &Tree) -> String {
+    value(tree)
+}
+
 fn dotted(text: &mut String, before: &str, node: &Node) {
     let Tree::Table(entries) = &node.tree else { return };
     for entry in entries {

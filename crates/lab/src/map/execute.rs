@@ -12,7 +12,7 @@ use crate::environment::work::{Watch, packed, spread, unpacked};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
 use crate::store::job::{Job, Kind};
-use crate::store::log::Log;
+use crate::store::log::{Log, Record};
 use crate::store::texts::Texts;
 use measure::statistics::Decision;
 use search::refine::{Cell, Refinement};
@@ -33,6 +33,8 @@ const EVALUATED: u32 = 1;
 const CONTROL: u64 = u64::MAX;
 /// Kind of child seeds: trials without a construct.
 const BARE: u32 = 7;
+/// Numbers set aside for the trials of one construct.
+pub(crate) const TRIALS_OF_ONE: u64 = 100_000;
 
 const KIND: Kind = Kind { name: "map", one: "a map", may_grow: "measures and statements" };
 
@@ -134,6 +136,39 @@ fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
     }
     let (mut log, records) = Log::open(&path)?;
     log.keep_until(records.last())?;
+    let there = known(&mut log, &records, &path)?;
+    Ok((log, there))
+}
+
+/// What is known of the map in a folder, as one looks at it: nothing is written.
+pub struct Known(There);
+
+impl Known {
+    /// What the folder holds.
+    ///
+    /// # Errors
+    /// One that cannot be read.
+    pub fn of(path: &Path) -> Result<Self, StoreError> {
+        let path = path.join(LOG);
+        if !path.exists() {
+            return Ok(Self(There::new()));
+        }
+        let (mut log, records) = Log::open_to_read(&path)?;
+        Ok(Self(known(&mut log, &records, &path)?))
+    }
+    /// The panels, as far as they are refined.
+    ///
+    /// # Errors
+    /// A plan that cannot begin.
+    pub fn panels(&self, plan: &Plan) -> Result<Vec<PanelMap>, StoreError> {
+        let mut maps = begun(plan)?;
+        while missing(&maps, &self.0, false).is_empty() && told(plan, &mut maps, &self.0)? {}
+        Ok(found(plan, maps, &self.0).panels)
+    }
+}
+
+/// What the records of a log hold.
+fn known(log: &mut Log, records: &[Record], path: &Path) -> Result<There, StoreError> {
     let mut there = There::new();
     for record in records.iter().filter(|record| record.kind == EVALUATED) {
         let &[panel, number, successes, trials, fitness] = unpacked(&log.read(record)?).as_slice() else {
@@ -141,7 +176,7 @@ fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
         };
         there.insert((panel, number), CellResult { successes, trials, fitness: f64::from_bits(fitness) });
     }
-    Ok((log, there))
+    Ok(there)
 }
 
 fn words((panel, number): (u64, u64), result: CellResult) -> [u64; 5] {
@@ -324,7 +359,8 @@ fn of_cell(
     for attempt in 0..plan.form.constructs as u64 {
         // outside the schema's domain there is nothing to try
         let Ok(construct) = plan.construct(panel, point, seed, attempt) else { break };
-        let trials = (1..=plan.trials as u64).map(|trial| child_seed(seed, TRIAL, attempt * 100_000 + trial, 0) >> 1);
+        let trials =
+            (1..=plan.trials as u64).map(|trial| child_seed(seed, TRIAL, attempt * TRIALS_OF_ONE + trial, 0) >> 1);
         if tried(plan, panel, &construct, true, trials, &mut sum, stop)?.is_none() {
             return Ok(None);
         }

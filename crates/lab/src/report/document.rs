@@ -20,7 +20,7 @@ pub fn html(page: &Page) -> String {
         figures.push(figure(number));
     };
     let (mut replays, mut charts, mut scenes) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut replay_data, mut chart_data) = (Vec::new(), Vec::new());
+    let (mut replay_data, mut chart_data, mut part_data) = (Vec::new(), Vec::new(), Vec::new());
     // the figures are numbered in the order in which the page shows them
     for recording in
         page.figures.iter().filter_map(|figure| if let Figure::Replay(it) = figure { Some(it) } else { None })
@@ -44,24 +44,34 @@ pub fn html(page: &Page) -> String {
     for moments in
         page.figures.iter().filter_map(|figure| if let Figure::Scenes(it) = figure { Some(it) } else { None })
     {
-        counted(&mut scenes, &|number| scenes_figure(moments, number));
+        let first = part_data.len();
+        part_data.extend(moments.moments.iter().map(|moment| scene::data(moments, moment)));
+        counted(&mut scenes, &|number| scenes_figure(moments, number, first));
     }
     let mut drawings = Vec::new();
     for figure in &page.figures {
-        let (title, about, wide, parts): (_, _, _, Vec<(&String, String)>) = match figure {
+        let (title, about, wide, parts): (_, _, _, Vec<(&String, String, String)>) = match figure {
             Figure::Drawings(it) => {
-                let parts = it.drawings.iter().map(|part| (&part.caption, drawing::drawing(it, part)));
+                let parts = it.drawings.iter();
+                let parts = parts.map(|part| (&part.caption, drawing::drawing(it, part), drawing::data(part)));
                 (&it.title, &it.about, false, parts.collect())
             }
             Figure::Map(it) => {
-                let parts = it.panels.iter().map(|part| (&part.caption, map::panel(it, part)));
+                let parts = it.panels.iter();
+                let parts = parts.map(|part| (&part.caption, map::panel(it, part), map::data(it, part)));
                 (&it.title, &it.about, true, parts.collect())
             }
             _ => continue,
         };
-        let parts: Vec<Value> =
-            parts.into_iter().map(|(caption, svg)| context! { caption, svg => safe(svg) }).collect();
-        counted(&mut drawings, &|number| context! { number, title, about, wide, parts => &parts });
+        let mut part = |(caption, svg, data): (&String, String, String)| {
+            part_data.push(data);
+            context! { caption, svg => safe(svg), data => part_data.len() - 1 }
+        };
+        let parts: Vec<Value> = parts.into_iter().map(&mut part).collect();
+        counted(&mut drawings, &|number| {
+            let file = escape::file_name(&title.to_lowercase(), &format!("drawings-{number}"));
+            context! { number, title, about, wide, file, parts => &parts }
+        });
     }
     let listings: Vec<Value> = page
         .figures
@@ -72,6 +82,7 @@ pub fn html(page: &Page) -> String {
     let data = escape::data(&json!({
         "charts": chart_data,
         "replays": replay_data,
+        "parts": part_data,
         "tables": page.tables.iter().enumerate().map(|(index, table)| json!({
             "file": table_file(table, index),
             "csv": table.csv,
@@ -156,14 +167,16 @@ fn chart_figure(lines: &Lines, svg: &str, number: usize) -> Value {
     }
 }
 
-fn scenes_figure(scenes: &Scenes, number: usize) -> Value {
+fn scenes_figure(scenes: &Scenes, number: usize, first: usize) -> Value {
     let moments: Vec<Value> = scenes
         .moments
         .iter()
-        .map(|moment| {
+        .enumerate()
+        .map(|(k, moment)| {
             context! {
                 time => quantity(moment.time, &scenes.time_unit),
                 svg => safe(scene::scene(scenes, moment)),
+                data => first + k,
             }
         })
         .collect();

@@ -65,6 +65,29 @@ pub(super) fn drawing(drawings: &Drawings, drawing: &Drawing) -> String {
     svg
 }
 
+/// What a drawing shows as CSV: points of lines, discs, marks.
+pub(super) fn data(drawing: &Drawing) -> String {
+    let mut csv = String::from("what,number,x,y,radius\n");
+    for (k, (stroke, points)) in drawing.strokes.iter().enumerate() {
+        let what = match stroke {
+            Stroke::There => "there",
+            Stroke::Built => "built",
+            Stroke::Structure => "structure",
+            Stroke::Way(_) => "way",
+        };
+        for [x, y] in points {
+            let _ = writeln!(csv, "{what},{k},{x},{y},");
+        }
+    }
+    for (k, (built, [x, y], radius)) in drawing.discs.iter().enumerate() {
+        let _ = writeln!(csv, "{},{k},{x},{y},{radius}", if *built { "disc built" } else { "disc there" });
+    }
+    for (k, [x, y]) in drawing.marks.iter().enumerate() {
+        let _ = writeln!(csv, "mark,{k},{x},{y},");
+    }
+    csv
+}
+
 /// The box around everything in a drawing; none where there is nothing.
 pub(crate) fn bounds(drawing: &Drawing) -> Option<([f64; 2], [f64; 2])> {
     let points = drawing.strokes.iter().flat_map(|(_, points)| points).chain(&drawing.marks).copied();

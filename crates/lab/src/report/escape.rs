@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 /// A text inside XML or HTML, between tags or in a quoted attribute. Control characters, which XML forbids, go.
-pub(super) fn markup(text: &str) -> String {
+pub(crate) fn markup(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

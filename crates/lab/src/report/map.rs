@@ -2,7 +2,7 @@
 
 use super::escape::markup;
 use super::number::{axis_title, number, place};
-use super::{Map, MapPanel};
+use super::{Map, MapCell, MapPanel};
 use core::fmt::Write;
 
 /// Width and height of a panel, and of its plot.
@@ -95,4 +95,13 @@ pub(super) fn panel(map: &Map, panel: &MapPanel) -> String {
         markup(&axis_title(&map.y.label, &map.y.unit))
     );
     svg
+}
+
+/// The cells of a panel as CSV.
+pub(super) fn data(map: &Map, panel: &MapPanel) -> String {
+    let mut csv = format!("{0}_low,{0}_high,{1}_low,{1}_high,rate,valid\n", map.x.label, map.y.label);
+    for MapCell { low, high, rate, valid } in &panel.cells {
+        let _ = writeln!(csv, "{},{},{},{},{rate},{}", low[0], high[0], low[1], high[1], u8::from(*valid));
+    }
+    csv
 }

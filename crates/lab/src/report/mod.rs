@@ -7,13 +7,13 @@
 mod chart;
 mod document;
 mod drawing;
-mod escape;
+pub(crate) mod escape;
 mod map;
-mod number;
-mod palette;
-mod replay;
+pub(crate) mod number;
+pub(crate) mod palette;
+pub(crate) mod replay;
 mod scene;
-mod ticks;
+pub(crate) mod ticks;
 
 pub use document::html;
 pub(crate) use drawing::TIMES;

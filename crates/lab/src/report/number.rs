@@ -38,7 +38,7 @@ pub(super) fn scientific(value: f64, decimals: usize) -> String {
 }
 
 /// A number with its unit.
-pub(super) fn quantity(value: f64, unit: &str) -> String {
+pub(crate) fn quantity(value: f64, unit: &str) -> String {
     let unit = unit.trim();
     if has_unit(unit) { format!("{}{THIN}{unit}", number(value)) } else { number(value) }
 }
@@ -59,7 +59,7 @@ pub(super) fn has_unit(unit: &str) -> bool {
 }
 
 /// A place in a drawing: one decimal, as short as can be.
-pub(super) fn place(value: f64) -> String {
+pub(crate) fn place(value: f64) -> String {
     // a drawing never reaches further; a place beyond it would upset programs that read it
     let value = if value.is_nan() { 0.0 } else { value.clamp(-1e5, 1e5) };
     let text = without_trailing_zeros(&format!("{value:.1}"));
@@ -67,7 +67,7 @@ pub(super) fn place(value: f64) -> String {
 }
 
 /// A number of bytes.
-pub(super) fn bytes(count: usize) -> String {
+pub(crate) fn bytes(count: usize) -> String {
     let count = count as f64;
     let steps = [(1e6, "MB"), (1e3, "kB")];
     let (size, unit) = steps.into_iter().find(|&(size, _)| count >= size).unwrap_or((1.0, "B"));

@@ -85,8 +85,8 @@
   const LOOKS = ["fill", "stroke", "stroke-width", "stroke-linecap", "stroke-linejoin", "stroke-dasharray",
     "font-family", "font-size", "font-style"];
 
-  /** A drawing as a file of its own: what the style sheet says is written into its elements. */
-  const alone = (svg) => inLight(() => {
+  /** A drawing as a file of its own, with its data: what the style sheet says is written into its elements. */
+  const alone = (svg, data) => inLight(() => {
     const copy = svg.cloneNode(true);
     const originals = all("*", svg), copies = all("*", copy);
     originals.forEach((original, index) => {
@@ -100,6 +100,11 @@
     copy.setAttribute("height", height * 2);
     for (const attribute of ["class", "tabindex"]) copy.removeAttribute(attribute);
     copy.prepend(drawn("rect", { width, height, fill: "#ffffff" }));
+    if (data) {
+      const metadata = drawn("metadata", {});
+      metadata.textContent = data;
+      copy.prepend(metadata);
+    }
     return new XMLSerializer().serializeToString(copy);
   });
 
@@ -155,25 +160,34 @@
     });
   }
 
+  /** Copies a text; where the browser does not allow that, does something else and says what. */
+  const copied = async (button, text, otherwise) => {
+    const done = (word) => { button.textContent = word; say(word); };
+    try {
+      await navigator.clipboard.writeText(text);
+      done("Copied");
+    } catch {
+      done(otherwise());
+    }
+    setTimeout(() => { button.textContent = "Copy"; }, 2000);
+  };
   for (const button of all("[data-do=copy]")) {
-    button.addEventListener("click", async () => {
-      const source = one(`#${button.dataset.copy}`);
-      const done = (text) => { button.textContent = text; say(text); };
-      try {
-        await navigator.clipboard.writeText(source.textContent);
-        done("Copied");
-      } catch {
-        getSelection().selectAllChildren(source);
-        done("Selected");
-      }
-      setTimeout(() => { button.textContent = "Copy"; }, 2000);
-    });
+    const source = one(`#${button.dataset.copy}`);
+    button.addEventListener("click", () => copied(button, source.textContent, () => { getSelection().selectAllChildren(source); return "Selected"; }));
   }
 
-  for (const moment of all(".moment")) {
-    one("[data-do=svg]", moment)?.addEventListener("click", () => {
-      saveText(`${moment.dataset.file}.svg`, alone(one("svg", moment)), "image/svg+xml");
+  /** The two buttons of a drawing: save it as SVG, and copy it, its data in it. */
+  const giveAway = (place, name, svg, data) => {
+    const text = () => alone(svg, data());
+    one("[data-do=svg]", place).addEventListener("click", () => saveText(`${name}.svg`, text(), "image/svg+xml"));
+    const button = one("[data-do=copy-svg]", place);
+    button.addEventListener("click", () => {
+      const whole = text();
+      copied(button, whole, () => { saveText(`${name}.svg`, whole, "image/svg+xml"); return "Saved"; });
     });
+  };
+  for (const moment of all(".moment")) {
+    giveAway(moment, moment.dataset.file, one("svg", moment), () => figures.parts[Number(moment.dataset.part)]);
   }
 
   // ---------------------------------------------------------------- charts
@@ -191,7 +205,7 @@
   const readOut = (figure) => {
     const chart = figures.charts[Number(figure.dataset.chart)];
     const plot = one(".plot", figure), svg = one("svg", plot);
-    one("[data-do=svg]", figure).addEventListener("click", () => saveText(`${chart.id}.svg`, alone(svg), "image/svg+xml"));
+    giveAway(figure, chart.id, svg, () => csv(chart));
     one("[data-do=csv]", figure).addEventListener("click", () => saveText(`${chart.id}.csv`, csv(chart), "text/csv"));
     const places = chart.places.map((list) => list.filter((x) => x !== null));
     const steps = places.length === 1 ? places[0] : [...new Set(places.flat())].sort((a, b) => a - b);
@@ -276,10 +290,35 @@
 
   // ---------------------------------------------------------------- the player
 
+  const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+
+  /** What was squeezed as it was packed. */
+  const unsqueezed = async (replay) => {
+    const stream = new Blob([bytesOf(replay.squeezed)]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+    const all = new Uint8Array(await new Response(stream).arrayBuffer());
+    const agents = replay.groups.reduce((sum, [, members]) => sum + members, 0), axes = replay.bounds.length;
+    const frames = replay.times.length, words = axes * agents, turns = agents * (axes === 3 ? 2 : 1);
+    const count = frames * words, each = 2 * words + turns;
+    const bytes = new Uint8Array(frames * each), one = new Uint16Array(words), two = new Uint16Array(words);
+    for (let frame = 0; frame < frames; frame += 1) {
+      for (let k = 0; k < words; k += 1) {
+        const at = frame * words + k, coded = all[at] << 8 | all[count + at];
+        const foretold = replay.order === 2 && frame > 1 ? 2 * one[k] - two[k] : one[k];
+        two[k] = one[k];
+        one[k] = foretold + (coded >> 1 ^ -(coded & 1));
+        bytes[frame * each + 2 * k] = one[k] & 255;
+        bytes[frame * each + 2 * k + 1] = one[k] >> 8;
+      }
+      for (let k = 0; k < turns; k += 1) {
+        const at = frame * each + 2 * words + k;
+        bytes[at] = (frame > 0 ? bytes[at - each] : 0) + all[2 * count + frame * turns + k];
+      }
+    }
+    return bytes;
+  };
+
   /** Positions and headings as they were packed (crates/lab/src/report/replay.rs says how). */
-  const unpacked = (replay) => {
-    const text = atob(replay.packed);
-    const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+  const unpacked = (replay, bytes) => {
     const group = replay.groups.flatMap(([index, members]) => Array(members).fill(index));
     const agents = group.length, axes = replay.bounds.length;
     const perFrame = agents * (2 * axes + (axes === 3 ? 2 : 1));
@@ -322,10 +361,9 @@
   const ARROW = [[1, 0], [-0.8, 0.68], [-0.4, 0], [-0.8, -0.68]];
   const FIRST_VIEW = { turn: -0.62, tilt: 0.5, zoom: 1 };
 
-  const play = (player) => {
-    const replay = figures.replays[Number(player.dataset.replay)];
+  const play = (player, replay, bytes) => {
     const { stage, times } = replay;
-    const data = unpacked(replay);
+    const data = unpacked(replay, bytes);
     const frames = times.length;
     const space = stage.axes === 3;
     const size = [0, 1, 2].map((axis) => (axis < stage.axes ? stage.high[axis] - stage.low[axis] : 0));
@@ -721,7 +759,15 @@
     addEventListener("beforeprint", () => inLight(repaint));
     addEventListener("afterprint", repaint);
   };
-  all("[data-replay]").forEach(play);
+  for (const player of all("[data-replay]")) {
+    const replay = figures.replays[Number(player.dataset.replay)];
+    if (replay.squeezed === undefined) play(player, replay, bytesOf(replay.packed));
+    else {
+      const time = one(".time", player);
+      time.textContent = "unpacking…";
+      unsqueezed(replay).then((bytes) => play(player, replay, bytes), () => { time.textContent = "This browser is too old to unpack the recording."; });
+    }
+  }
 
   // on paper nobody can unfold anything
   const folded = () => all("details.source:not([open])");

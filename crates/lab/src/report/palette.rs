@@ -9,7 +9,7 @@ use core::fmt::Write;
 type Colour = (&'static str, &'static str, &'static str);
 
 /// How many series have a colour of their own.
-pub(super) const SERIES: usize = 7;
+pub(crate) const SERIES: usize = 7;
 
 /// Dashes, one for each series in turn; empty is a solid line. Lengths in units of the drawing.
 pub(super) const DASHES: [&str; 6] = ["", "7 2.5", "3 1.6", "11 2.5 2.5 2.5", "5 3.5", "1.6 1.6"];
@@ -33,6 +33,14 @@ pub(super) const COLOURS: &[Colour] = &[
     ("series-5", "#3c93cf", "#a9dcff"),
     ("series-6", "#5b5b5b", "#c4c4c4"),
 ];
+
+/// A colour on light ground: red, green, blue; black for a name that is not there.
+pub(crate) fn light(name: &str) -> [u8; 3] {
+    let found = COLOURS.iter().find(|colour| colour.0 == name).map_or("#000000", |colour| colour.1);
+    core::array::from_fn(|k| {
+        found.get(1 + 2 * k..3 + 2 * k).and_then(|part| u8::from_str_radix(part, 16).ok()).unwrap_or(0)
+    })
+}
 
 /// The style sheet that gives every colour its value: light, dark where the system is dark, and either where the reader
 /// chose it.

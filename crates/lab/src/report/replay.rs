@@ -4,9 +4,15 @@
 //! angle) and two in space (azimuth and polar angle). Everything is little-endian and written in base64. A frame
 //! holds, one after the other: for each axis the positions of all agents, then the headings of all agents (in space:
 //! all azimuths, then all polar angles).
+//!
+//! A long recording is squeezed on top of that: of every number only its difference from what the frames before it lead to
+//! expect, all high bytes before all low bytes, by the deflate method. A short one is not, so that every browser plays it.
 
 use super::{Border, Outline, Replay, Stage};
+use flate2::Compression;
+use flate2::write::DeflateEncoder;
 use serde_json::{Value, json};
+use std::io::Write;
 
 /// The largest number of a position; the one above says that the agent is not there.
 const MOST: u16 = u16::MAX - 1;
@@ -16,6 +22,8 @@ const ABSENT: u16 = u16::MAX;
 const DIRECTIONS: u8 = 255;
 /// Steps of the polar angle from pole to pole.
 const POLAR: f64 = 254.0;
+/// Bytes from which on a recording is squeezed.
+const LONG: usize = 3_000_000;
 
 /// The recording as data for the player.
 pub(super) fn data(replay: &Replay) -> Value {
@@ -32,24 +40,67 @@ pub(super) fn data(replay: &Replay) -> Value {
     let shown = if replay.obstacles.len() > 1 { frames } else { 1 };
     let obstacles: Vec<Value> =
         replay.obstacles.iter().take(shown).map(|frame| frame.iter().filter_map(outline).collect()).collect();
-    json!({
+    let mut data = json!({
         "stage": stage(&replay.stage),
         "timeUnit": replay.time_unit,
         "times": replay.times[..frames].iter().map(|&time| if time.is_finite() { time } else { 0.0 }).collect::<Vec<_>>(),
         "groups": runs(&replay.group),
         "bounds": bounds,
         "obstacles": obstacles,
-        "packed": base64(&packed),
-    })
+    });
+    match (packed.len() >= LONG).then(|| squeezed(&packed, frames, axes, replay.group.len())).flatten() {
+        Some((order, squeezed)) => {
+            data["order"] = json!(order);
+            data["squeezed"] = json!(base64(&squeezed));
+        }
+        None => data["packed"] = json!(base64(&packed)),
+    }
+    data
+}
+
+/// A packed recording, squeezed, and from how many frames before it a position is foretold; none where the machine refuses.
+fn squeezed(packed: &[u8], frames: usize, axes: usize, agents: usize) -> Option<(usize, Vec<u8>)> {
+    let (words, turns) = (axes * agents, agents * if axes == 3 { 2 } else { 1 });
+    let each = 2 * words + turns;
+    let word = |frame: usize, k: usize| {
+        let at = frame * each + 2 * k;
+        u16::from_le_bytes([packed[at], packed[at + 1]])
+    };
+    let differences = |order: usize| {
+        let before = |frame: usize, k: usize, back: usize| if frame >= back { word(frame - back, k) } else { 0 };
+        let one = move |frame: usize, k: usize| {
+            let foretold = match order {
+                2 if frame >= 2 => before(frame, k, 1).wrapping_mul(2).wrapping_sub(before(frame, k, 2)),
+                _ => before(frame, k, 1),
+            };
+            let difference = word(frame, k).wrapping_sub(foretold) as i16;
+            // small ones are small numbers, whatever their sign
+            ((difference << 1) ^ (difference >> 15)) as u16
+        };
+        (0..frames).flat_map(move |frame| (0..words).map(move |k| one(frame, k))).collect::<Vec<u16>>()
+    };
+    let sizes = |list: &[u16]| list.iter().map(|&one| u64::from(one)).sum::<u64>();
+    let (steady, straight) = (differences(1), differences(2));
+    let (order, list) = if sizes(&straight) < sizes(&steady) { (2, straight) } else { (1, steady) };
+    let mut bytes: Vec<u8> = list.iter().map(|one| (one >> 8) as u8).collect();
+    bytes.extend(list.iter().map(|&one| one as u8));
+    for frame in 0..frames {
+        let turn = |frame: usize, k: usize| packed[frame * each + 2 * words + k];
+        let before = |k: usize| if frame > 0 { turn(frame - 1, k) } else { 0 };
+        bytes.extend((0..turns).map(|k| turn(frame, k).wrapping_sub(before(k))));
+    }
+    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(&bytes).ok()?;
+    Some((order, encoder.finish().ok()?))
 }
 
 /// Number of axes of a stage: 1, 2 or 3 whatever it says.
-pub(super) fn axes(stage: &Stage) -> usize {
+pub(crate) fn axes(stage: &Stage) -> usize {
     stage.dimensions.clamp(1, 3)
 }
 
 /// Ends of what a stage shows, by axis: finite and apart.
-pub(super) fn extent(stage: &Stage) -> [(f64, f64); 3] {
+pub(crate) fn extent(stage: &Stage) -> [(f64, f64); 3] {
     core::array::from_fn(|axis| {
         super::ticks::ends(Some((stage.low[axis], stage.high[axis])), [stage.low[axis], stage.high[axis]].into_iter())
     })
@@ -248,6 +299,45 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn what_was_squeezed_comes_back_byte_by_byte() {
+        for dimensions in 1..=3 {
+            let (frames, agents) = (20, 7);
+            let mut replay = recording(dimensions, frames, agents);
+            replay.position[3][2] = [f32::NAN; 3];
+            let packed = unpacked(data(&replay)["packed"].as_str().unwrap());
+            let (order, squeezed) = squeezed(&packed, frames, dimensions, agents).unwrap();
+            let mut all = Vec::new();
+            std::io::Read::read_to_end(&mut flate2::read::DeflateDecoder::new(&squeezed[..]), &mut all).unwrap();
+            // as the page does it
+            let (words, turns) = (dimensions * agents, agents * if dimensions == 3 { 2 } else { 1 });
+            let (count, each) = (frames * words, 2 * words + turns);
+            let mut back = vec![0u8; frames * each];
+            let word = |back: &[u8], frame: usize, k: usize| {
+                let at = frame * each + 2 * k;
+                u16::from_le_bytes([back[at], back[at + 1]])
+            };
+            for frame in 0..frames {
+                for k in 0..words {
+                    let coded = u16::from_le_bytes([all[count + frame * words + k], all[frame * words + k]]);
+                    let difference = (coded >> 1) ^ 0u16.wrapping_sub(coded & 1);
+                    let before = |by: usize| if frame >= by { word(&back, frame - by, k) } else { 0 };
+                    let foretold = match order {
+                        2 if frame >= 2 => before(1).wrapping_mul(2).wrapping_sub(before(2)),
+                        _ => before(1),
+                    };
+                    let at = frame * each + 2 * k;
+                    back[at..at + 2].copy_from_slice(&foretold.wrapping_add(difference).to_le_bytes());
+                }
+                for k in 0..turns {
+                    let before = if frame > 0 { back[(frame - 1) * each + 2 * words + k] } else { 0 };
+                    back[frame * each + 2 * words + k] = before.wrapping_add(all[2 * count + frame * turns + k]);
+                }
+            }
+            assert!(back == packed, "{dimensions}");
         }
     }
 

@@ -150,6 +150,19 @@ pub(super) fn scene(scenes: &Scenes, moment: &Moment) -> String {
     svg
 }
 
+/// Where the agents of a moment are, as CSV.
+pub(super) fn data(scenes: &Scenes, moment: &Moment) -> String {
+    let mut csv = String::from("group,x,y,z,heading_x,heading_y,heading_z\n");
+    for agent in moment.agents.iter().filter(|agent| finite(&agent.position)) {
+        let name = scenes.stage.groups.get(agent.group).map_or("", String::as_str);
+        // a position has as many digits as were recorded
+        let numbers: Vec<String> =
+            agent.position.iter().chain(&agent.heading).map(|&value| (value as f32).to_string()).collect();
+        let _ = writeln!(csv, "\"{}\",{}", name.replace('"', "\"\""), numbers.join(","));
+    }
+    csv
+}
+
 /// What the drawing shows, in words.
 fn describe(scenes: &Scenes, moment: &Moment) -> String {
     let views =

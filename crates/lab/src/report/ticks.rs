@@ -69,7 +69,7 @@ pub(super) fn ticks((low, high): (f64, f64), count: usize) -> Ticks {
 }
 
 /// A round length (1, 2 or 5 times a power of ten) of at most `most`; 1 where that makes no sense.
-pub(super) fn round_length(most: f64) -> f64 {
+pub(crate) fn round_length(most: f64) -> f64 {
     if !most.is_finite() || most <= 0.0 {
         return 1.0;
     }

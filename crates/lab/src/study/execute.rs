@@ -10,7 +10,7 @@ use super::{report, tables, trial};
 use crate::store::StoreError;
 use crate::store::folder::{self, Folder};
 use crate::store::job::{Job, Kind};
-use crate::store::log::Log;
+use crate::store::log::{Log, Record};
 use crate::store::texts::Texts;
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, HashMap};
@@ -328,6 +328,28 @@ fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, Results), StoreError> {
 fn logged(path: &Path, plan: &Plan) -> Result<(Log, Results), StoreError> {
     let (mut log, records) = Log::open(path)?;
     log.keep_until(records.last())?;
+    let results = known(&mut log, &records, path, plan)?;
+    Ok((log, results))
+}
+
+/// The study in a folder with what is known of its trials, as one looks at it: nothing is written.
+///
+/// # Errors
+/// A folder that holds none, or one that cannot be read.
+pub fn look(path: &Path) -> Result<(Plan, Results), StoreError> {
+    let plan = of_folder(path)?;
+    let path = path.join(RESULTS);
+    if !path.exists() {
+        let nothing = vec![BTreeMap::new(); plan.conditions.len()];
+        return Ok((plan, nothing));
+    }
+    let (mut log, records) = Log::open_to_read(&path)?;
+    let results = known(&mut log, &records, &path, &plan)?;
+    Ok((plan, results))
+}
+
+/// What the records of a log hold of the plan's conditions.
+fn known(log: &mut Log, records: &[Record], path: &Path, plan: &Plan) -> Result<Results, StoreError> {
     let place: HashMap<[u64; 2], usize> = plan.conditions.iter().enumerate().map(|(k, c)| (c.key, k)).collect();
     let mut results = vec![BTreeMap::new(); plan.conditions.len()];
     for record in records.iter().filter(|record| record.kind == TRIAL) {
@@ -339,7 +361,7 @@ fn logged(path: &Path, plan: &Plan) -> Result<(Log, Results), StoreError> {
             results[condition].insert(trial, values);
         }
     }
-    Ok((log, results))
+    Ok(results)
 }
 
 fn packed(key: [u64; 2], trial: usize, values: &[f64]) -> Vec<u8> {

@@ -1,0 +1,164 @@
+//! `flockworks export`: what is in a folder in another form, to be sent.
+
+use crate::fault::{Fault, wrong};
+use crate::kinds::{self, Kind};
+use crate::run::PROGRAM;
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use core::ops::RangeInclusive;
+use lab::export::{Chosen, Form, LIST, Look, find, read, size};
+use lab::store::folder::whole_file;
+use lab::store::table::Table;
+use lab::store::{StoreError, export as tables};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The form of tables, which any folder has.
+const CSV: &str = "csv";
+/// The page that every folder of a search has.
+const PAGE: &str = "report.html";
+
+/// Options of `export`.
+#[derive(Args, Debug)]
+pub struct ExportOptions {
+    /// Folder of a complete run, analysis or search.
+    pub folder: PathBuf,
+    /// Form to export to.
+    #[arg(long, value_name = "FORM", value_parser = PossibleValuesParser::new(names()), long_help = about())]
+    pub to: String,
+    /// Folder for the files; left out, the one that is exported.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of the recording, from 0, where the folder has several.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub recording: usize,
+    /// The frame that a picture shows, from 0; left out, the last.
+    #[arg(long, value_name = "F")]
+    pub frame: Option<u64>,
+    /// From which frame to which what moves goes; left out, all.
+    #[arg(long, value_name = "FROM..TO", value_parser = range)]
+    pub frames: Option<RangeInclusive<u64>>,
+    /// Keep one frame in so many; left out, as many as the form has room for.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub every: Option<u64>,
+    /// Width of pictures, in pixels.
+    #[arg(long, value_name = "N", default_value_t = 720, value_parser = clap::value_parser!(u32).range(120..=7680))]
+    pub width: u32,
+    /// Frames in a second of what moves.
+    #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u32).range(1..=120))]
+    pub rate: u32,
+}
+
+fn names() -> Vec<&'static str> {
+    [CSV].into_iter().chain(LIST.iter().map(|form| form.id())).collect()
+}
+
+fn about() -> String {
+    let forms = LIST.iter().map(|form| format!("{:5}{}", form.id(), form.about()));
+    let csv = format!("{CSV:5}one file of comma-separated values for each table");
+    let lines: Vec<String> = [csv].into_iter().chain(forms).collect();
+    format!("Form to export to:\n\n{}", lines.join("\n"))
+}
+
+fn range(text: &str) -> Result<RangeInclusive<u64>, String> {
+    let ends = text.split_once("..").and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
+    let (from, to) = ends.ok_or("two numbers are wanted, as in 10..200")?;
+    if from <= to { Ok(from..=to) } else { Err("the first frame must not lie behind the last".into()) }
+}
+
+/// Writes what is in a folder in another form.
+///
+/// # Errors
+/// A folder that is not complete, has no recording, or cannot be written to; frames that are not there.
+pub fn export(options: &ExportOptions, out: &mut dyn Write) -> Result<(), Fault> {
+    let from = &options.folder;
+    let kind = kinds::of_folder(from)?;
+    let to = options.out.as_ref().unwrap_or(from);
+    std::fs::create_dir_all(to).map_err(|error| StoreError::io("make the folder", to, error))?;
+    match find(&options.to) {
+        None => csv(kind, from, to, out),
+        Some(form) => recorded(kind, form, options, to, out),
+    }
+}
+
+/// Every table as comma-separated values.
+fn csv(kind: &dyn Kind, from: &Path, to: &Path, out: &mut dyn Write) -> Result<(), Fault> {
+    for name in kind.tables(from)? {
+        let path = from.join(name);
+        if !path.exists() {
+            continue;
+        }
+        let table = Table::open(&path)?;
+        let target = to.join(name).with_extension(CSV);
+        whole_file(&target, |file| tables::csv(&table, file))?;
+        writeln!(out, "{}: {} rows", target.display(), table.rows())?;
+    }
+    Ok(())
+}
+
+fn recorded(
+    kind: &dyn Kind,
+    form: &dyn Form,
+    options: &ExportOptions,
+    to: &Path,
+    out: &mut dyn Write,
+) -> Result<(), Fault> {
+    let from = &options.folder;
+    let name = from.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let target = to.join(format!("{}.{}", name.as_deref().unwrap_or("recording"), form.ending()));
+    if !kind.records() {
+        return page(kind, form, from, &target, out);
+    }
+    let recordings = kind.recordings(from)?;
+    if options.recording >= recordings {
+        return wrong(format!("there is no recording {}: `{}` has {recordings}", options.recording, from.display()));
+    }
+    let chosen = Chosen { frame: options.frame, frames: options.frames.clone(), every: options.every };
+    let mut shown = kind.show(from, options.recording).map_err(|error| Fault::Input(error.to_string()))?;
+    let read = read(&mut *shown, form, &chosen, PROGRAM).map_err(|error| Fault::Input(error.to_string()));
+    let (recording, every) = read?;
+    let look = Look { width: options.width, rate: f64::from(options.rate) };
+    let bytes = form.bytes(&recording, &look)?;
+    let (agents, frames) = (recording.replay.group.len(), recording.replay.times.len());
+    let frames = if form.still() { "1 frame".to_owned() } else { format!("{frames} frames") };
+    let thinned = if every > 1 && !form.still() { format!(", one in {every} kept (--every)") } else { String::new() };
+    // the size is told before anything is written
+    writeln!(out, "{}: {}, {agents} agents, {frames}{thinned}", target.display(), size(bytes.len()))?;
+    out.flush()?;
+    written(&target, &bytes)
+}
+
+/// The page of a folder that holds no recording.
+fn page(kind: &dyn Kind, form: &dyn Form, from: &Path, target: &Path, out: &mut dyn Write) -> Result<(), Fault> {
+    let path = from.join(PAGE);
+    if form.id() != "html" {
+        return wrong(format!(
+            "`{}` holds a {} and no recording of one run: it can be had as {CSV} or html; for a picture of a trial, save its \
+             scenario in `flockworks view` and run it",
+            from.display(),
+            kind.id()
+        ));
+    }
+    let bytes = std::fs::read(&path).map_err(|error| StoreError::io("read", &path, error))?;
+    writeln!(out, "{}: {}", target.display(), size(bytes.len()))?;
+    out.flush()?;
+    written(target, &bytes)
+}
+
+fn written(target: &Path, bytes: &[u8]) -> Result<(), Fault> {
+    let write = |file: &mut std::io::BufWriter<std::fs::File>| {
+        file.write_all(bytes).map_err(|error| StoreError::io("write", target, error))
+    };
+    Ok(whole_file(target, write)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_of_frames() {
+        assert_eq!(range("3..9"), Ok(3..=9));
+        assert!(range("9..3").is_err() && range("3").is_err() && range("a..b").is_err());
+    }
+}

@@ -1,0 +1,310 @@
+// Searches, drawing and exports with the real program behind them: what is shown is what is there, what is drawn is obeyed,
+// what is sent plays without a network.
+
+import assert from "node:assert/strict";
+import { execFileSync, spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { after, before, describe, test } from "node:test";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const root = fileURLToPath(new URL("../..", import.meta.url));
+const pictures = `${root}target/pages`;
+const scratch = mkdtempSync(`${tmpdir()}/flockworks-shown-`);
+const OF_THE_BROWSER = /GPU stall due to ReadPixels/;
+// a program that is built already; left out, it is built
+const GIVEN = process.env.FLOCKWORKS_PROGRAM;
+
+let browser, program;
+const run = (...words) => execFileSync(program, words, { cwd: root, stdio: ["ignore", "pipe", "pipe"] }).toString();
+
+before(async () => {
+  mkdirSync(pictures, { recursive: true });
+  program = GIVEN;
+  if (!program) {
+    const words = ["build", "--quiet", "--package", "flockworks", "--message-format=json"];
+    const built = execFileSync(process.env.CARGO ?? "cargo", words, { cwd: root, maxBuffer: 1 << 26, stdio: ["ignore", "pipe", "inherit"] });
+    for (const line of built.toString().split("\n").filter((line) => line.startsWith("{"))) program = JSON.parse(line).executable ?? program;
+  }
+  writeFileSync(`${scratch}/map.toml`, readFileSync(`${root}studies/environments/fig-7.10.toml`, "utf8")
+    .replace("cells = 18", "cells = 6").replace("cells = 6\nscenario", "cells = 3\nscenario").replace("trials = 10", "trials = 2").replace('"junction.toml"', `"${root}studies/environments/junction.toml"`)
+    .split("[measure.at_1]")[0]);
+  writeFileSync(`${scratch}/design.toml`, readFileSync(`${root}studies/environments/table-7.2-corralling.toml`, "utf8").replace('"field.toml"', `"${root}studies/environments/field.toml"`).split("# as figure 7.7")[0]);
+  run("run", "studies/compositions/weights.toml", "--quick", "--trials", "1-3", "--out", `${scratch}/study`, "--set", "set.time.duration=80");
+  run("run", "studies/evolution/flocks.toml", "--quick", "--set", "quick_generations=4", "--out", `${scratch}/evolution`);
+  run("run", `${scratch}/design.toml`, "--quick", "--set", "quick_attempts=24", "--set", "set.time.duration=50", "--out", `${scratch}/design`);
+  run("run", `${scratch}/map.toml`, "--out", `${scratch}/map`);
+  run("run", "studies/schooling.toml", "--quick", "--out", `${scratch}/run`);
+  browser = await chromium.launch({
+    executablePath: "/usr/bin/chromium",
+    args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  });
+});
+after(() => browser?.close());
+
+/** Sees to it that a page complains of nothing and asks nobody but `address`. */
+async function watched(act, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, acceptDownloads: true, reducedMotion: "reduce", ...options });
+  const page = await context.newPage();
+  const complaints = [], requests = [];
+  page.on("console", (message) => { if (!OF_THE_BROWSER.test(message.text())) complaints.push(`${message.type()}: ${message.text()}`); });
+  page.on("pageerror", (error) => complaints.push(`error: ${error.stack}`));
+  page.on("request", (request) => requests.push(request.url()));
+  try {
+    const address = await act(page, context);
+    assert.deepEqual(complaints, []);
+    assert.deepEqual(requests.filter((url) => !url.startsWith(address) && !/^(data|blob):/.test(url)), []);
+  } finally { await context.close(); }
+}
+
+async function opened(given, act, options = {}) {
+  const server = spawn(program, ["view", ...given], { cwd: root, stdio: ["ignore", "pipe", "inherit"] });
+  try {
+    const address = await new Promise((resolve, reject) => {
+      server.stdout.once("data", (bytes) => resolve(bytes.toString().split("\n")[0]));
+      server.once("exit", () => reject(new Error("the server ended")));
+    });
+    await watched(async (page) => { await page.goto(address + (options.hash ?? "")); await act(page); return address; }, options.context);
+  } finally { server.kill(); }
+}
+
+/** How many colours a canvas shows. */
+const coloursOf = (page, selector) => page.locator(selector).first().evaluate((canvas) => {
+  const { width, height } = canvas;
+  return new Set(new Uint32Array(canvas.getContext("2d").getImageData(0, 0, width, height).data.buffer)).size;
+});
+const playing = async (page) => { await page.locator(".time[data-step]").waitFor(); await page.locator("[data-do=forth]").click(); await page.waitForFunction(() => Number(document.querySelector(".time").dataset.step) >= 1); };
+const overflow = (page) => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+
+describe("searches", () => {
+  test("a study: cells over factors, a trial that is watched has the seed it had", () => opened([`${scratch}/study`], async (page) => {
+    await page.locator(".multiple").first().waitFor();
+    assert.equal(await page.locator(".multiple").count(), 15);
+    assert.ok(await coloursOf(page, ".multiple canvas") > 3);
+    await page.locator(".multiple").nth(4).click();
+    await page.locator(".trials button").first().waitFor();
+    assert.equal(await page.locator(".trials button").count(), 3);
+    await page.screenshot({ path: `${pictures}/view-study.png` });
+    // what is shown is what the tables say
+    run("export", `${scratch}/study`, "--to", "csv");
+    const [names, ...rows] = readFileSync(`${scratch}/study/cells.csv`, "utf8").trim().split("\n").map((line) => line.split(","));
+    const cell = Number(await page.locator(".multiple").nth(4).getAttribute("data-cell"));
+    const mean = Number(rows[cell][names.indexOf("polarisation_mean")]);
+    const shown = Number((await page.locator(".detail tbody tr").first().locator("td").innerText()).replace("\u2212", "-"));
+    assert.ok(Math.abs(shown - mean) < 1e-4 * Math.abs(mean) + 1e-9, `${shown} for ${mean}`);
+    await page.locator(".multiple").nth(4).focus();
+    await page.keyboard.press("ArrowRight");
+    assert.ok(await page.evaluate(() => document.activeElement.classList.contains("multiple")));
+    const trial = page.locator(".trials button").first();
+    const number = Number(await trial.getAttribute("data-trial"));
+    await trial.click();
+    await playing(page);
+    assert.equal(await page.locator(".seed").inputValue(), String(1 + number));
+    await page.locator("[data-do=overview]").click();
+    await page.locator(".multiple[aria-pressed=true]").waitFor();
+  }));
+
+  test("an evolution: fitness and genes, and generation k", () => opened([`${scratch}/evolution`], async (page) => {
+    await page.locator(".watch").waitFor();
+    await page.locator(".detail .values").nth(1).waitFor();
+    assert.ok(await coloursOf(page, ".searching figure canvas") > 8);
+    assert.equal(await page.locator(".alleles figure").count(), 12);
+    await page.locator(".generation").fill("2");
+    await page.locator(".generation").press("Enter");
+    await page.locator("h2", { hasText: "Generation 2" }).waitFor();
+    await page.screenshot({ path: `${pictures}/view-evolution.png` });
+    await page.locator(".watch").click();
+    await playing(page);
+    assert.match(await page.locator("h1").innerText(), /generation 2/);
+  }));
+
+  test("a design: a wall of environments, how one came about, the group in it", () => opened([`${scratch}/design`], async (page) => {
+    await page.locator(".tile").first().waitFor();
+    await page.waitForFunction(() => { const canvas = document.querySelector(".tile canvas"); return canvas && new Set(new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size > 3; });
+    await page.locator(".tile").first().focus();
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("Enter");
+    const slider = page.locator(".derivation input");
+    await slider.waitFor();
+    const whole = await coloursOf(page, ".large");
+    await page.screenshot({ path: `${pictures}/view-design.png` });
+    await slider.fill("1");
+    assert.match(await page.locator(".derivation output").innerText(), /step 1 of \d+/);
+    assert.ok(whole > 3);
+    await page.locator(".watch").first().click();
+    await playing(page);
+    assert.match(await page.locator("h1").innerText(), /candidate \d+/);
+  }));
+
+  test("a map: a point, its environment and its run", () => opened([`${scratch}/map`], async (page) => {
+    const canvas = page.locator(".panels canvas").first();
+    await canvas.waitFor();
+    await canvas.click({ position: { x: 180, y: 120 } });
+    await page.locator(".watch").waitFor();
+    assert.ok(await coloursOf(page, ".large") > 3);
+    await page.screenshot({ path: `${pictures}/view-map.png` });
+    await canvas.focus();
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("Enter");
+    await page.locator(".watch").waitFor();
+    await page.locator(".watch").click();
+    await playing(page);
+  }));
+
+  test("each fits a phone, light and dark", async () => {
+    for (const kind of ["study", "evolution", "design", "map"]) {
+      await opened([`${scratch}/${kind}`], async (page) => {
+        await page.locator(".searching canvas").first().waitFor();
+        assert.equal(await overflow(page), 0, kind);
+        await page.locator("[data-do=theme]").click();
+      }, { context: { viewport: { width: 360, height: 740 } } });
+    }
+  });
+});
+
+describe("drawing", () => {
+  test("a wall that is drawn and saved is accepted, and obeyed", () => opened([], async (page) => {
+    await page.locator(".stage").waitFor();
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.locator("[data-do=open]").click()]);
+    await chooser.setFiles(`${root}studies/gallery/corral.toml`);
+    await page.locator(".item.wall").nth(1).waitFor();
+    // across the throat of the funnel, from edge to edge, by the keyboard alone
+    const stage = page.locator(".stage");
+    const at = (x, y) => page.evaluate(([x, y]) => {
+      const box = document.querySelector(".stage").getBoundingClientRect(), edge = document.querySelector(".edge").getBBox();
+      const others = [...document.querySelectorAll(".edge")].map((one) => one.getBBox());
+      const [left, right] = [Math.min(...others.map((one) => one.x)), Math.max(...others.map((one) => one.x + one.width))];
+      const [top, bottom] = [Math.min(...others.map((one) => one.y)), Math.max(...others.map((one) => one.y + one.height))];
+      return [box.left + left + x / 140 * (right - left), box.top + bottom - y / 100 * (bottom - top), edge.width];
+    }, [x, y]);
+    await page.locator("[data-tool=wall]").click();
+    const [x0, y0] = await at(80, 0), [x1, y1] = await at(80, 100);
+    await page.mouse.click(x0, y0);
+    await page.mouse.click(x1, y1);
+    await page.keyboard.press("Escape");
+    assert.equal(await page.locator(".item.wall").count(), 3);
+    await stage.focus();
+    await page.keyboard.press("Control+z");
+    assert.equal(await page.locator(".item.wall").count(), 2);
+    await page.keyboard.press("Control+y");
+    assert.equal(await page.locator(".item.wall").count(), 3);
+    await page.locator("[data-tool=region]").click();
+    await page.mouse.click(...(await at(100, 40)).slice(0, 2));
+    await page.mouse.click(...(await at(120, 60)).slice(0, 2));
+    await page.locator(".item.region").waitFor();
+    await page.screenshot({ path: `${pictures}/view-drawing.png` });
+    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("[data-do=save-drawing]").click()]);
+    const file = `${scratch}/drawn.toml`;
+    await download.saveAs(file);
+    run("check", file);
+    const furthest = (text, folder) => {
+      run("run", text, "--out", folder);
+      run("export", folder, "--to", "csv");
+      const [names, ...rows] = readFileSync(`${folder}/trajectory.csv`, "utf8").trim().split("\n").map((line) => line.split(","));
+      const x = names.indexOf("x");
+      return Math.max(...rows.map((row) => Number(row[x])));
+    };
+    assert.ok(furthest("studies/gallery/corral.toml", `${scratch}/corral`) > 91, "without the wall they go into the pen");
+    const behind = furthest(file, `${scratch}/walled`);
+    assert.ok(behind < 80.5, `with it they stay before it, and got to ${behind}`);
+    const saves = async (as) => {
+      await page.locator("label", { hasText: "Save as" }).locator("select").selectOption(as);
+      const [download] = await Promise.all([page.waitForEvent("download"), page.locator("[data-do=save-drawing]").click()]);
+      const path = `${scratch}/${download.suggestedFilename()}`;
+      await download.saveAs(path);
+      return readFileSync(path, "utf8");
+    };
+    assert.match(await saves("geojson"), /"role":"region","name":"region-1"/);
+    assert.match(await saves("svg"), /<line class="workspace"/);
+    assert.match(await saves("workspace"), /region\.region-1\.box/);
+  }, { hash: "#draw" }));
+
+  test("by the keyboard alone, and tried at once", () => opened([], async (page) => {
+    await page.locator(".stage").waitFor();
+    await page.locator(".stage").focus();
+    await page.keyboard.press("2");
+    await page.keyboard.press("Enter");
+    for (const key of ["ArrowRight", "ArrowRight", "ArrowUp"]) await page.keyboard.press(key);
+    await page.keyboard.press("Enter");
+    await page.locator(".item.wall").waitFor();
+    await page.locator("[data-do=try]").click();
+    await playing(page);
+  }, { hash: "#draw" }));
+
+  test("it fits a phone", () => opened([], async (page) => {
+    await page.locator(".stage").waitFor();
+    assert.equal(await overflow(page), 0);
+  }, { hash: "#draw", context: { viewport: { width: 360, height: 740 } } }));
+});
+
+describe("what is sent", () => {
+  /** Drops a file on the page. */
+  const drop = (page, name, text) => page.evaluate(([name, text]) => {
+    const data = new DataTransfer();
+    data.items.add(new File([text], name));
+    document.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+  }, [name, text]);
+
+  test("a file that is dropped on the page opens", () => opened([], async (page) => {
+    await page.locator("#gallery .wall li").first().waitFor();
+    await drop(page, "mill.toml", readFileSync(`${root}studies/gallery/mill.toml`, "utf8"));
+    await playing(page);
+    assert.equal(await page.locator("h1").innerText(), "A mill");
+    await drop(page, "broken.toml", "kind = \"scenario\"\ntitel = 1\n");
+    await page.locator("#notice", { hasText: "titel" }).waitFor();
+  }));
+
+  test("an export plays from disk without a network", async () => {
+    const told = run("export", `${scratch}/run`, "--to", "html", "--out", scratch);
+    assert.match(told, /run\.html: \d/);
+    await watched(async (page, context) => {
+      await context.setOffline(true);
+      const address = pathToFileURL(`${scratch}/run.html`).href;
+      await page.goto(address);
+      await page.locator(".player .scrub").waitFor();
+      await page.waitForFunction(() => Number(document.querySelector(".player .scrub").max) > 10);
+      await page.locator(".player [data-do=play]").first().click();
+      await page.waitForFunction(() => Number(document.querySelector(".player .scrub").value) > 3);
+      assert.ok(await coloursOf(page, ".player canvas") > 20);
+      return address;
+    });
+  });
+
+  test("every drawing of a report is copied as SVG with its data", async () => {
+    for (const [kind, selector, heads] of [["run", "[data-chart='0']", /^time/], ["run", ".scenes .moment", /^group,x,y,z/], ["design", ".moment", /^what,number,x,y,radius/], ["map", ".moment", /^angle_low,angle_high,length_low/]]) {
+      await watched(async (page) => {
+        await page.addInitScript(() => { Object.defineProperty(navigator, "clipboard", { value: { writeText: async (text) => { window.copied = text; } } }); });
+        const address = pathToFileURL(`${scratch}/${kind}/report.html`).href;
+        await page.goto(address);
+        await page.locator(`${selector} [data-do=copy-svg]`).first().click();
+        await page.waitForFunction(() => typeof window.copied === "string");
+        const { root, data, rows } = await page.evaluate(() => {
+          const read = new DOMParser().parseFromString(window.copied, "image/svg+xml");
+          const data = read.querySelector("metadata").textContent;
+          return { root: read.documentElement.tagName, data, rows: data.trim().split("\n").length };
+        });
+        assert.equal(root, "svg");
+        assert.match(data, heads, kind);
+        assert.ok(rows > 2, `${kind}: ${rows}`);
+        return address;
+      });
+    }
+  });
+
+  test("pictures are made without a browser, and look as they should", async () => {
+    run("export", `${scratch}/run`, "--to", "png", "--out", scratch, "--frame", "30");
+    run("export", `${scratch}/run`, "--to", "svg", "--out", scratch);
+    run("export", `${scratch}/run`, "--to", "gif", "--out", scratch, "--frames", "0..9", "--width", "240");
+    run("export", `${scratch}/run`, "--to", "gltf", "--out", scratch);
+    await watched(async (page) => {
+      const address = pathToFileURL(`${scratch}/`).href;
+      for (const name of ["run.png", "run.svg", "run.gif"]) {
+        await page.goto(address + name);
+        const bytes = await page.screenshot();
+        assert.ok(bytes.length > 5000, name);
+      }
+      return address;
+    });
+  });
+});
