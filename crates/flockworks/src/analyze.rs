@@ -31,7 +31,7 @@ pub struct AnalyzeOptions {
     #[arg(required = true, value_name = "TRACKS")]
     pub tracks: Vec<String>,
     /// Which columns are what: frame, time, id, x, y, z, longitude, latitude, vx, vy, vz, each by its name or its number
-    /// from 1, `none` for none; point=PART (or mean) among body parts; wide=xy or xyz.
+    /// from 1, `none` for none; point=PART (or mean) among body parts; wide=xy or xyz; clock=ms.
     #[arg(long, value_name = "ROLE=NAME,...", value_delimiter = ',')]
     pub columns: Vec<String>,
     /// Frames per second; `unknown` measures in frames. Left out: what the table says.

@@ -53,7 +53,8 @@ form! {
         layout: String = ["auto"], "", Any;
         /// Which columns are what, as in `{ frame = "frame", id = "fish", x = "px", y = "py" }`: frame, time, id, x, y, z,
         /// longitude, latitude, vx, vy, vz by their names or by their numbers from 1, `"none"` for none; `point`, the body
-        /// part that stands for an individual, or `"mean"`; `wide`, `"xy"` or `"xyz"`.
+        /// part that stands for an individual, or `"mean"`; `wide`, `"xy"` or `"xyz"`; `clock`, the unit of
+        /// times that are numbers, `"ms"`.
         columns: Named<String> = [Named::default()], "", Any;
         /// Frames per second; `"unknown"` counts times in frames. Left out: what the table says.
         fps: Option<Rate> = none, "1/s", Positive;
