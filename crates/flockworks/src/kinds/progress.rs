@@ -32,7 +32,11 @@ pub(super) struct End<'a> {
 }
 
 impl End<'_> {
-    pub(super) fn tell(&self, out: &mut dyn Write, told: impl FnOnce(&mut dyn Write) -> Result<(), Fault>) -> Result<u8, Fault> {
+    pub(super) fn tell(
+        &self,
+        out: &mut dyn Write,
+        told: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
+    ) -> Result<u8, Fault> {
         if let Some(stopped) = &self.stopped {
             writeln!(out, "{stopped}; the same command continues it")?;
             return Ok(INTERRUPTED);

@@ -34,9 +34,10 @@ pub struct ViewOptions {
     /// Port. Left out, a free one is chosen.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port: u16,
-    /// Address to listen on. With any but a loopback one, whoever reaches it can see and change what is shown.
-    #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
-    pub listen: IpAddr,
+    /// Address to listen on; left out, 127.0.0.1. With any but a loopback one, whoever reaches it can see and change what is
+    /// shown.
+    #[arg(long, value_name = "ADDRESS")]
+    pub listen: Option<IpAddr>,
     /// Open the page in the browser.
     #[arg(long)]
     pub open: bool,
@@ -142,17 +143,18 @@ pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
 }
 
 async fn serve(options: &ViewOptions, given: Vec<Given>, out: &mut dyn Write) -> Result<(), Fault> {
-    let address = SocketAddr::from((options.listen, options.port));
+    let listen = options.listen.unwrap_or(IpAddr::V4(Ipv4Addr::LOCALHOST));
+    let address = SocketAddr::from((listen, options.port));
     let listener = tokio::net::TcpListener::bind(address)
         .await
         .map_err(|error| Fault::Input(format!("cannot listen on {address}: {error}; choose another --port")))?;
     let port = listener.local_addr().map_or(options.port, |address| address.port());
-    let named = if options.listen.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { options.listen };
+    let named = if listen.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { listen };
     let address = format!("http://{}/", SocketAddr::from((named, port)));
     writeln!(out, "{address}\nCtrl-C ends it")?;
-    let open_to_others = !options.listen.is_loopback();
+    let open_to_others = !listen.is_loopback();
     if open_to_others {
-        writeln!(out, "Whoever reaches {} at port {port} can see and change what is shown.", options.listen)?;
+        writeln!(out, "Whoever reaches {listen} at port {port} can see and change what is shown.")?;
     }
     out.flush()?;
     if options.open {

@@ -1,6 +1,6 @@
 //! What the page asks for beside its socket: searches and their parts, files that were dropped on it, sketches.
 
-use super::{Given, Shared, ViewOptions, local, own_page, refused};
+use super::{Given, Shared, ViewOptions, admitted, own_page, refused};
 use crate::kinds;
 use axum::extract::{Path as Part, RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -29,7 +29,7 @@ async fn asked(
     given: usize,
     ask: impl FnOnce(&dyn Searched) -> Result<Json, LiveError> + Send + 'static,
 ) -> Response {
-    if !local(&headers, shared.port) {
+    if !admitted(&headers, &shared) {
         return refused();
     }
     let Some(Given::Search(_, _, search)) = shared.given(given) else {
@@ -63,7 +63,7 @@ pub(super) async fn part(
 
 /// Takes a file that was dropped on the page: name in the first line, text below. The answer is its number among what was given.
 pub(super) async fn give(State(shared): State<Arc<Shared>>, headers: HeaderMap, body: String) -> Response {
-    if !local(&headers, shared.port) || !own_page(&headers, shared.port) {
+    if !admitted(&headers, &shared) || !own_page(&headers, &shared) {
         return refused();
     }
     let (name, text) = body.split_once('\n').unwrap_or(("", &body));
@@ -83,7 +83,7 @@ pub(super) async fn give(State(shared): State<Arc<Shared>>, headers: HeaderMap, 
 
 /// The sketch of a file: name in the first line, text below.
 pub(super) async fn sketch(State(shared): State<Arc<Shared>>, headers: HeaderMap, body: String) -> Response {
-    if !local(&headers, shared.port) || !own_page(&headers, shared.port) {
+    if !admitted(&headers, &shared) || !own_page(&headers, &shared) {
         return refused();
     }
     let (name, text) = body.split_once('\n').unwrap_or(("", &body));
@@ -95,7 +95,7 @@ pub(super) async fn sketch(State(shared): State<Arc<Shared>>, headers: HeaderMap
 
 /// Saves a sketch: `as`, `name`, `base`, `items`. The answer is the file.
 pub(super) async fn save(State(shared): State<Arc<Shared>>, headers: HeaderMap, body: String) -> Response {
-    if !local(&headers, shared.port) || !own_page(&headers, shared.port) {
+    if !admitted(&headers, &shared) || !own_page(&headers, &shared) {
         return refused();
     }
     let saved = || {

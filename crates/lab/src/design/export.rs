@@ -53,9 +53,7 @@ pub fn environment_files(
         ("toml", trial::file(population, environment.geometry(), seed, title)),
     ] {
         let path = below.join(format!("{stem}.{ending}"));
-        whole_file(&path, |out| {
-            out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error))
-        })?;
+        whole_file(&path, |out| out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))?;
     }
     Ok(())
 }

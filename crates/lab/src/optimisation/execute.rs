@@ -269,12 +269,7 @@ fn searched(plan: &Plan, there: &mut There, see: &mut See<'_>) -> Result<Option<
             let left = plan.evaluations - done.evaluations.len();
             for (k, point) in searcher.candidates().iter().take(left).enumerate() {
                 units.push(Unit {
-                    key: (
-                        *method as u64,
-                        *run as u64,
-                        Purpose::Search as u64,
-                        (done.evaluations.len() + k) as u64,
-                    ),
+                    key: (*method as u64, *run as u64, Purpose::Search as u64, (done.evaluations.len() + k) as u64),
                     what: What::Point(point.clone()),
                     // candidates of a generation meet in the same trials
                     purpose: (Purpose::Search, generation),
@@ -314,12 +309,7 @@ fn searched(plan: &Plan, there: &mut There, see: &mut See<'_>) -> Result<Option<
 }
 
 /// Tries the best candidates of each run again, and the best of them once more; false where it was stopped.
-fn confirmed(
-    plan: &Plan,
-    runs: &mut [Vec<Run>],
-    there: &mut There,
-    see: &mut See<'_>,
-) -> Result<bool, StoreError> {
+fn confirmed(plan: &Plan, runs: &mut [Vec<Run>], there: &mut There, see: &mut See<'_>) -> Result<bool, StoreError> {
     let unit = |method: usize, run: usize, place: usize, point: &[f64], purpose: Purpose| Unit {
         key: (method as u64, run as u64, purpose as u64, place as u64),
         what: What::Point(point.to_vec()),
@@ -386,9 +376,8 @@ fn lightened(
     };
     let Some(before) = trial(&first, there)? else { return Ok(None) };
     let (mut lightest, mut after) = (first.clone(), before);
-    let holds = |found: &Found| {
-        wilson(found.successes, found.trials, 0.95).is_ok_and(|interval| interval.low >= form.least)
-    };
+    let holds =
+        |found: &Found| wilson(found.successes, found.trials, 0.95).is_ok_and(|interval| interval.low >= form.least);
     for _ in 0..PASSES {
         let mut lighter = false;
         for (piece, share) in trials::reductions(lightest.pieces.len(), &form.shares) {

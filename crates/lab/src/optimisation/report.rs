@@ -100,7 +100,8 @@ fn progress(results: &Results<'_>) -> Lines {
     Lines {
         id: "progress".into(),
         title: "The best score so far".into(),
-        about: "Mean over the runs of each method. It is the best of noisy scores; what new trials found stands below.".into(),
+        about: "Mean over the runs of each method. It is the best of noisy scores; what new trials found stands below."
+            .into(),
         x: Axis { label: "evaluations".into(), unit: String::new(), range: None },
         y: Axis { label: objective(plan).into(), unit: String::new(), range: None },
         lines: plan.methods().into_iter().zip(&results.runs).map(line).collect(),
@@ -251,7 +252,9 @@ fn constructs(results: &Results<'_>) -> Option<Drawings> {
     }
     (!drawings.is_empty()).then(|| Drawings {
         title: "The best constructs".into(),
-        about: "Of each method that of its best run, with the ways of the first new trial, from blue to orange with time.".into(),
+        about:
+            "Of each method that of its best run, with the ways of the first new trial, from blue to orange with time."
+                .into(),
         bounds: None,
         drawings,
     })
@@ -260,8 +263,7 @@ fn constructs(results: &Results<'_>) -> Option<Drawings> {
 fn lighter(results: &Results<'_>) -> Option<Drawings> {
     let lighter = results.lighter.as_ref()?;
     let one = |(construct, found): &(Construct, Found), word: &str| {
-        let caption =
-            format!("{word}: {} of wall, {} of {}", short(found.material), found.successes, found.trials);
+        let caption = format!("{word}: {} of wall, {} of {}", short(found.material), found.successes, found.trials);
         drawing(results.plan, construct, caption)
     };
     Some(Drawings {

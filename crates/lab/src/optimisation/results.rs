@@ -56,8 +56,7 @@ pub struct Results<'a> {
 impl<'a> Results<'a> {
     /// Results of one made-up candidate, to find out whether statements have a meaning.
     pub(super) fn example(plan: &'a Plan) -> Self {
-        let found =
-            Found { score: 1.0, successes: 1, trials: 1, fitness: 1.0, steps: 1.0, material: 1.0, pieces: 1 };
+        let found = Found { score: 1.0, successes: 1, trials: 1, fitness: 1.0, steps: 1.0, material: 1.0, pieces: 1 };
         let point = plan.domain.lows();
         let run = Run {
             evaluations: vec![(point, found)],
@@ -89,9 +88,9 @@ impl<'a> Results<'a> {
     pub fn archive(&self, method: usize, drawn: Option<&[usize]>) -> Option<(f64, f64)> {
         let Search::MapElites(_) = self.plan.form.method.0[method].1 else { return None };
         let of = |run: usize| {
-            self.runs[method].get(run).map(|run| {
-                (run.elites.len() as f64, run.elites.iter().map(|elite| elite.score).sum::<f64>())
-            })
+            self.runs[method]
+                .get(run)
+                .map(|run| (run.elites.len() as f64, run.elites.iter().map(|elite| elite.score).sum::<f64>()))
         };
         let all: Vec<(f64, f64)> = match drawn {
             Some(drawn) => drawn.iter().filter_map(|&run| of(run)).collect(),

@@ -15,7 +15,10 @@ const AGAIN: u32 = 11;
 const CANDIDATES: usize = 20;
 
 enum Way {
-    Uniform { each: usize, candidates: Vec<Vec<f64>> },
+    Uniform {
+        each: usize,
+        candidates: Vec<Vec<f64>>,
+    },
     Genetic(Genetic),
     /// With the number of times that it began.
     Strategy(Box<EvolutionStrategy>, u64),
@@ -44,7 +47,12 @@ fn archive(form: &Archive) -> Result<(ElitesOptions, Domain), SearchError> {
 }
 
 /// A strategy that begins at a point drawn for it; the first begins in the middle of the box.
-fn strategy(domain: &Domain, options: StrategyOptions, seed: u64, begun: u64) -> Result<EvolutionStrategy, SearchError> {
+fn strategy(
+    domain: &Domain,
+    options: StrategyOptions,
+    seed: u64,
+    begun: u64,
+) -> Result<EvolutionStrategy, SearchError> {
     let seed = child_seed(seed, AGAIN, begun, 0);
     let domain = match begun {
         0 => domain.clone(),
@@ -75,8 +83,7 @@ impl Searcher {
                 Way::Genetic(Genetic::new(domain.clone(), form.operators(), seed, 0, first)?)
             }
             Search::CmaEs(form) => {
-                options =
-                    StrategyOptions { candidates: form.candidates.unwrap_or(0), first_step: form.first_step };
+                options = StrategyOptions { candidates: form.candidates.unwrap_or(0), first_step: form.first_step };
                 Way::Strategy(Box::new(strategy(&domain, options, seed, 0)?), 0)
             }
             Search::MapElites(form) => {

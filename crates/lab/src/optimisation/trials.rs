@@ -122,7 +122,9 @@ pub fn of_construct(
     };
     let (sum, objective) = match plan.form.robust.as_ref().filter(|_| purpose != Purpose::Control) {
         None => {
-            let Some(sum) = tried(plan, construct, purpose != Purpose::Control, seeds(0), stop)? else { return Ok(None) };
+            let Some(sum) = tried(plan, construct, purpose != Purpose::Control, seeds(0), stop)? else {
+                return Ok(None);
+            };
             let objective = value(&sum);
             (sum, objective)
         }
