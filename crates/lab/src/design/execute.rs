@@ -10,13 +10,12 @@ use super::{export, report, tables};
 use crate::environment::trial::{self, Outcome, Population, Tried};
 use crate::environment::work::{Watch, packed, spread, unpacked};
 use crate::store::StoreError;
-use crate::store::folder::{self, Folder};
-use crate::store::job::{Job, Kind};
+use crate::store::folder::Folder;
+use crate::store::job::{File, Job, Kind};
 use crate::store::log::{Log, Record};
-use crate::store::texts::Texts;
 use measure::behaviours::Behaviour;
 use measure::statistics::Decision;
-use serde_json::{Value as Json, json};
+use serde_json::json;
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -53,11 +52,7 @@ pub struct Done {
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
 pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
-    KIND.read(path, |texts| {
-        let (name, first) = texts.file();
-        super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
-            .map_err(|problems| problems.to_string())
-    })
+    KIND.plan(path, |name, text, sets, quick, load| super::read(name, text, sets, quick, load))
 }
 
 /// Runs what is missing of a design.
@@ -71,15 +66,15 @@ pub fn run(
     program: &str,
     watch: &mut dyn Watch,
 ) -> Result<Done, StoreError> {
-    let stem = plan.sources.stem(0).unwrap_or("design");
-    let differences = |manifest: &Json| KIND.differences(manifest, &plan.identity());
-    let path = folder::place(out, stem, (KIND.name, KIND.may_grow), &differences)?;
-    let about = [
-        ("title", json!(plan.form.title)),
-        ("files", Texts::json(&plan.sources, &plan.sets, plan.quick)),
-        ("identity", plan.identity()),
-    ];
-    let mut job = Job::begin(KIND, &path, &about, &differences, (program, threads))?;
+    let file = File {
+        title: &plan.form.title,
+        sources: &plan.sources,
+        sets: &plan.sets,
+        quick: plan.quick,
+        identity: plan.identity(),
+    };
+    let mut job = Job::of_file(KIND, &file, out, (program, threads))?;
+    let path = job.folder.path().to_owned();
     let survey = plan.survey().map_err(StoreError::Refused)?;
     let (mut log, mut there, mut copies) = opened(&job.folder, plan)?;
     let missing: Vec<&(u64, Construct)> =

@@ -10,15 +10,14 @@ use super::plan::Plan;
 use super::variants::Variants;
 use super::{report, tables};
 use crate::store::StoreError;
-use crate::store::folder::{self, Folder};
-use crate::store::job::{Job, Kind};
+use crate::store::folder::Folder;
+use crate::store::job::{File, Job, Kind};
 use crate::store::log::{Log, Record};
-use crate::store::texts::Texts;
 use core::ops::{ControlFlow, Range};
 use search::elites::{Elites, Told};
 use search::evolution_strategy::EvolutionStrategy;
 use search::genetic::Genetic;
-use serde_json::{Value as Json, json};
+use serde_json::json;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -114,11 +113,7 @@ const KIND: Kind = Kind { name: "evolution", one: "an evolution", may_grow: "run
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
 pub fn of_folder(path: &Path) -> Result<Variants, StoreError> {
-    KIND.read(path, |texts| {
-        let (name, first) = texts.file();
-        super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
-            .map_err(|problems| problems.to_string())
-    })
+    KIND.plan(path, |name, text, sets, quick, load| super::read(name, text, sets, quick, load))
 }
 
 /// Runs what is missing of an evolution.
@@ -133,15 +128,15 @@ pub fn run(
     watch: &mut dyn Watch,
 ) -> Result<Outcome, StoreError> {
     let plan = variants.first();
-    let stem = plan.sources.stem(0).unwrap_or("evolution");
-    let differences = |manifest: &Json| KIND.differences(manifest, &variants.identity());
-    let path = folder::place(out, stem, (KIND.name, KIND.may_grow), &differences)?;
-    let about = [
-        ("title", json!(plan.form.title)),
-        ("files", Texts::json(&plan.sources, &plan.sets, plan.quick)),
-        ("identity", variants.identity()),
-    ];
-    let mut job = Job::begin(KIND, &path, &about, &differences, (program, threads))?;
+    let file = File {
+        title: &plan.form.title,
+        sources: &plan.sources,
+        sets: &plan.sets,
+        quick: plan.quick,
+        identity: variants.identity(),
+    };
+    let mut job = Job::of_file(KIND, &file, out, (program, threads))?;
+    let path = job.folder.path().to_owned();
     let mut history = opened(&job.folder, variants)?;
     let there: usize = history.runs.iter().map(|run| run.generations.len()).sum();
     watch.begin(&path, variants.generations() - there, there, threads);

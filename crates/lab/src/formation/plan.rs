@@ -10,7 +10,7 @@ use crate::design::plan::{TRIAL, opened, workspace};
 use crate::environment::claims;
 use crate::environment::trial::{Population, obstacles};
 use crate::environment::workspace::Resolved;
-use crate::file::{Desk, Form, Node, Problems, Rule, Sources, Span};
+use crate::file::{Form, Node, Problems, Rule, Sources, Span};
 use crate::scenario::Scenario;
 use crate::scenario::build::{self, Wrong};
 use crate::study::plan::{Files, Load};
@@ -170,15 +170,9 @@ fn step_of(population: &Population) -> f64 {
 /// # Errors
 /// Everything that is wrong with it, at its place.
 pub fn read(name: &str, text: &str, sets: &[String], quick: bool, load: Load<'_>) -> Result<Plan, Problems> {
-    let mut files = Files { sources: Sources::default(), desk: Desk::default(), load };
-    let plan = planned(&mut files, name, text, sets, quick);
-    match plan {
-        Some(mut plan) if files.desk.problems.is_empty() => {
-            plan.sources = files.sources;
-            Ok(plan)
-        }
-        _ => Err(Problems::new(files.sources, files.desk.problems)),
-    }
+    let (mut plan, sources) = Files::read(load, |files| planned(files, name, text, sets, quick))?;
+    plan.sources = sources;
+    Ok(plan)
 }
 
 fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick: bool) -> Option<Plan> {

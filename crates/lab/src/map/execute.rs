@@ -10,13 +10,12 @@ use crate::design::plan::TRIAL;
 use crate::environment::trial;
 use crate::environment::work::{Watch, packed, spread, unpacked};
 use crate::store::StoreError;
-use crate::store::folder::{self, Folder};
-use crate::store::job::{Job, Kind};
+use crate::store::folder::Folder;
+use crate::store::job::{File, Job, Kind};
 use crate::store::log::{Log, Record};
-use crate::store::texts::Texts;
 use measure::statistics::Decision;
 use search::refine::{Cell, Refinement};
-use serde_json::{Value as Json, json};
+use serde_json::json;
 use space::random::child_seed;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -61,11 +60,7 @@ pub struct Done {
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
 pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
-    KIND.read(path, |texts| {
-        let (name, first) = texts.file();
-        super::read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
-            .map_err(|problems| problems.to_string())
-    })
+    KIND.plan(path, |name, text, sets, quick, load| super::read(name, text, sets, quick, load))
 }
 
 /// Runs what is missing of a map.
@@ -79,15 +74,15 @@ pub fn run(
     program: &str,
     watch: &mut dyn Watch,
 ) -> Result<Done, StoreError> {
-    let stem = plan.sources.stem(0).unwrap_or("map");
-    let differences = |manifest: &Json| KIND.differences(manifest, &plan.identity());
-    let path = folder::place(out, stem, (KIND.name, KIND.may_grow), &differences)?;
-    let about = [
-        ("title", json!(plan.form.title)),
-        ("files", Texts::json(&plan.sources, &plan.sets, plan.quick)),
-        ("identity", plan.identity()),
-    ];
-    let mut job = Job::begin(KIND, &path, &about, &differences, (program, threads))?;
+    let file = File {
+        title: &plan.form.title,
+        sources: &plan.sources,
+        sets: &plan.sets,
+        quick: plan.quick,
+        identity: plan.identity(),
+    };
+    let mut job = Job::of_file(KIND, &file, out, (program, threads))?;
+    let path = job.folder.path().to_owned();
     let (mut log, mut there) = opened(&job.folder)?;
     let before = there.len();
     watch.begin(&path, "evaluations", 0, before, threads);

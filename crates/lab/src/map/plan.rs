@@ -133,15 +133,9 @@ impl Plan {
 /// # Errors
 /// Everything that is wrong with it, at its place.
 pub fn read(name: &str, text: &str, sets: &[String], quick: bool, load: Load<'_>) -> Result<Plan, Problems> {
-    let mut files = Files { sources: Sources::default(), desk: Default::default(), load };
-    let plan = planned(&mut files, name, text, sets, quick);
-    match plan {
-        Some(mut plan) if files.desk.problems.is_empty() => {
-            plan.sources = files.sources;
-            Ok(plan)
-        }
-        _ => Err(Problems::new(files.sources, files.desk.problems)),
-    }
+    let (mut plan, sources) = Files::read(load, |files| planned(files, name, text, sets, quick))?;
+    plan.sources = sources;
+    Ok(plan)
 }
 
 fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick: bool) -> Option<Plan> {

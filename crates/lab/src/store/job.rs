@@ -3,6 +3,7 @@
 use super::StoreError;
 use super::folder::{self, Folder};
 use super::texts::Texts;
+use crate::file::{Problems, Sources};
 use serde_json::{Value as Json, json};
 use std::path::Path;
 
@@ -43,6 +44,42 @@ impl Kind {
             .and_then(|texts| read(&texts))
             .map_err(|what| StoreError::Damaged(format!("`{}`: {what}", path.display())))
     }
+    /// The plan of a folder, read again from its texts: name and text of the file, what is put over it, whether it is quick, and
+    /// who loads the files it names.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn plan<P>(
+        &self,
+        path: &Path,
+        read: impl FnOnce(
+            &str,
+            &str,
+            &[String],
+            bool,
+            &mut dyn FnMut(&str) -> Result<String, String>,
+        ) -> Result<P, Problems>,
+    ) -> Result<P, StoreError> {
+        self.read(path, |texts| {
+            let (name, first) = texts.file();
+            read(name, first, &texts.sets, texts.quick, &mut |name| texts.text(name))
+                .map_err(|problems| problems.to_string())
+        })
+    }
+}
+
+/// A file that fills a folder, with what was put over it.
+pub struct File<'a> {
+    /// Its title.
+    pub title: &'a str,
+    /// Its texts.
+    pub sources: &'a Sources,
+    /// What was put over it.
+    pub sets: &'a [String],
+    /// Whether it is run quick.
+    pub quick: bool,
+    /// What its results depend on.
+    pub identity: Json,
 }
 
 /// A folder in a session of work.
@@ -54,6 +91,27 @@ pub struct Job {
 }
 
 impl Job {
+    /// Begins a session for a file: in the folder asked for, or in one below `runs` that has the file's name and is free or of the
+    /// same file.
+    ///
+    /// # Errors
+    /// As [`Self::begin`].
+    pub fn of_file(
+        kind: Kind,
+        file: &File<'_>,
+        out: Option<&Path>,
+        session: (&str, usize),
+    ) -> Result<Self, StoreError> {
+        let stem = file.sources.stem(0).unwrap_or(kind.name);
+        let differences = |manifest: &Json| kind.differences(manifest, &file.identity);
+        let path = folder::place(out, stem, (kind.name, kind.may_grow), &differences)?;
+        let about = [
+            ("title", json!(file.title)),
+            ("files", Texts::json(file.sources, file.sets, file.quick)),
+            ("identity", file.identity.clone()),
+        ];
+        Self::begin(kind, &path, &about, &differences, session)
+    }
     /// Begins a session in a folder, or goes on in it. `about` are the entries of the manifest that tell what it is of;
     /// `differences` tells from a manifest where it is of something else.
     ///

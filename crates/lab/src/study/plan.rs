@@ -203,7 +203,18 @@ pub(crate) struct Files<'a> {
     pub(crate) load: Load<'a>,
 }
 
-impl Files<'_> {
+impl<'a> Files<'a> {
+    /// What is read of a file and those it names, with their texts.
+    ///
+    /// # Errors
+    /// Everything that was found wrong.
+    pub(crate) fn read<P>(load: Load<'a>, read: impl FnOnce(&mut Self) -> Option<P>) -> Result<(P, Sources), Problems> {
+        let mut files = Self { sources: Sources::default(), desk: Desk::default(), load };
+        match read(&mut files) {
+            Some(plan) if files.desk.problems.is_empty() => Ok((plan, files.sources)),
+            _ => Err(Problems::new(files.sources, files.desk.problems)),
+        }
+    }
     /// Path and text of a file beside another.
     pub(crate) fn loaded(&mut self, beside: &str, file: &str, place: &Span) -> Option<(String, String)> {
         let path = std::path::Path::new(beside).parent().map_or_else(|| file.into(), |folder| folder.join(file));
