@@ -310,7 +310,6 @@ fn the_study_to_start_from_runs_and_its_page_is_whole() {
     let first = std::fs::read(out.join("report.html")).unwrap();
     assert_eq!(ran(&["report", out.to_str().unwrap()]).status.code(), Some(0));
     assert_eq!(first, std::fs::read(out.join("report.html")).unwrap());
-    refused(&["view", out.to_str().unwrap()], &["is no folder of a single run"]);
     assert!(text(&ran(&["schema"]).stdout).lines().any(|kind| kind == "study"));
 }
 
