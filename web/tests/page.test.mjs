@@ -7,6 +7,7 @@ import { mkdirSync, readFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
+import { built } from "./built.mjs";
 
 const root = fileURLToPath(new URL("../..", import.meta.url));
 const folder = `${root}target/pages`;
@@ -17,10 +18,9 @@ let browser;
 
 before(async () => {
   mkdirSync(folder, { recursive: true });
-  const cargo = process.env.CARGO ?? "cargo";
+  const sample = built("sample_page");
   for (const [file, kind] of [[SAMPLE, "sample"], [STRANGE, "strange"]]) {
-    const words = ["run", "--quiet", "--package", "lab", "--example", "sample_page", "--", file, kind];
-    execFileSync(cargo, words, { cwd: root, stdio: ["ignore", "inherit", "inherit"] });
+    execFileSync(sample, [file, kind], { cwd: root, stdio: ["ignore", "inherit", "inherit"] });
   }
   browser = await chromium.launch({
     executablePath: "/usr/bin/chromium",

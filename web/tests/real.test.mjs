@@ -7,6 +7,7 @@ import { tmpdir } from "node:os";
 import { after, before, describe, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
+import { built } from "./built.mjs";
 
 const root = fileURLToPath(new URL("../..", import.meta.url));
 const pictures = `${root}target/pages`;
@@ -17,11 +18,7 @@ let browser, program;
 
 before(async () => {
   mkdirSync(pictures, { recursive: true });
-  const words = ["build", "--quiet", "--package", "flockworks", "--message-format=json"];
-  const built = execFileSync(process.env.CARGO ?? "cargo", words, { cwd: root, maxBuffer: 1 << 26, stdio: ["ignore", "pipe", "inherit"] });
-  for (const line of built.toString().split("\n").filter((line) => line.startsWith("{"))) {
-    program = JSON.parse(line).executable ?? program;
-  }
+  program = built("flockworks");
   execFileSync(program, ["run", "studies/schooling.toml", "--quick", "--out", run], { cwd: root, stdio: "ignore" });
   browser = await chromium.launch({
     executablePath: "/usr/bin/chromium",

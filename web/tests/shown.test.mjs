@@ -8,6 +8,7 @@ import { tmpdir } from "node:os";
 import { after, before, describe, test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
+import { built } from "./built.mjs";
 
 const root = fileURLToPath(new URL("../..", import.meta.url));
 const pictures = `${root}target/pages`;
@@ -21,12 +22,7 @@ const run = (...words) => execFileSync(program, words, { cwd: root, stdio: ["ign
 
 before(async () => {
   mkdirSync(pictures, { recursive: true });
-  program = GIVEN;
-  if (!program) {
-    const words = ["build", "--quiet", "--package", "flockworks", "--message-format=json"];
-    const built = execFileSync(process.env.CARGO ?? "cargo", words, { cwd: root, maxBuffer: 1 << 26, stdio: ["ignore", "pipe", "inherit"] });
-    for (const line of built.toString().split("\n").filter((line) => line.startsWith("{"))) program = JSON.parse(line).executable ?? program;
-  }
+  program = GIVEN || built("flockworks");
   writeFileSync(`${scratch}/map.toml`, readFileSync(`${root}studies/environments/fig-7.10.toml`, "utf8")
     .replace("cells = 18", "cells = 6").replace("cells = 6\nscenario", "cells = 3\nscenario").replace("trials = 10", "trials = 2").replace('"junction.toml"', `"${root}studies/environments/junction.toml"`)
     .split("[measure.at_1]")[0]);

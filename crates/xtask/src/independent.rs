@@ -22,7 +22,8 @@ pub(crate) fn test(workspace: &Workspace) -> Result<Outcome, Failure> {
         return Ok(Outcome::default());
     }
     let mut cargo = workspace.cargo();
-    cargo.args(["build", "--quiet", "--package", "measure", "--example", "independent"]);
+    // with all crates at once, as the tests are built, so that nothing is compiled twice
+    cargo.args(["build", "--quiet", "--workspace", "--example", "independent"]);
     if crate::workspace::succeed(&mut cargo, "").is_err() {
         say!("the example `independent` of `measure` did not build: counted as one failure");
         return Ok(Outcome { passed: 0, failed: 1 });
