@@ -17,7 +17,6 @@ use measure::behaviours::Behaviour;
 use measure::statistics::Decision;
 use serde_json::json;
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use terrain::Construct;
 
@@ -152,18 +151,12 @@ fn finish(folder: &Folder, results: &Results<'_>, copies: &Copies, program: &str
     let copies: Copies = wanted.into_iter().filter_map(|copy| Some((copy, *copies.get(&copy)?))).collect();
     robustness::write(folder, results, &copies)?;
     export::write(folder, results)?;
-    let html = crate::report::html(&report::page(results, &copies, program));
-    let path = folder.file(REPORT);
-    folder.write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+    folder.write_text(REPORT, &crate::report::html(&report::page(results, &copies, program)))
 }
 
 fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, BTreeMap<u64, Vec<Trials>>, Copies), StoreError> {
     let path = folder.file(LOG);
-    if !path.exists() {
-        return Ok((Log::create(&path)?, BTreeMap::new(), Copies::new()));
-    }
-    let (mut log, records) = Log::open(&path)?;
-    log.keep_until(records.last())?;
+    let (mut log, records) = Log::resume(&path)?;
     let (there, copies) = known(&mut log, &records, &path, plan)?;
     Ok((log, there, copies))
 }

@@ -18,7 +18,6 @@ use search::elites::{Elites, Told};
 use search::evolution_strategy::EvolutionStrategy;
 use search::genetic::Genetic;
 use serde_json::json;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, sync_channel};
@@ -202,16 +201,12 @@ fn finish(
     program: &str,
 ) -> Result<(), StoreError> {
     tables::write(folder, variants, runs, contests)?;
-    let written = |name: &str, text: &str| {
-        let path = folder.file(name);
-        folder.write(name, |out| out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
-    };
     for (variant, (plan, own)) in variants.plans.iter().zip(runs.chunks(variants.runs())).enumerate() {
         if let Some(text) = champion(plan, own) {
-            written(&champion_file(variant), &text)?;
+            folder.write_text(&champion_file(variant), &text)?;
         }
     }
-    written(REPORT, &crate::report::html(&report::page(variants, runs, contests, program)))
+    folder.write_text(REPORT, &crate::report::html(&report::page(variants, runs, contests, program)))
 }
 
 /// Name of the champion's file of a variant, which counts from 0.
@@ -254,12 +249,7 @@ struct History {
 
 fn opened(folder: &Folder, variants: &Variants) -> Result<History, StoreError> {
     let path = folder.file(HISTORY);
-    if !path.exists() {
-        let (runs, tried) = nothing(variants);
-        return Ok(History { log: Log::create(&path)?, runs, tried });
-    }
-    let (mut log, records) = Log::open(&path)?;
-    log.keep_until(records.last())?;
+    let (mut log, records) = Log::resume(&path)?;
     let (runs, tried) = known(&mut log, &records, &path, variants)?;
     Ok(History { log, runs, tried })
 }

@@ -16,7 +16,6 @@ use crate::store::log::Log;
 use serde_json::json;
 use space::Segment;
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The log.
@@ -185,18 +184,12 @@ pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
 
 fn finish(folder: &Folder, results: &Results<'_>, program: &str) -> Result<(), StoreError> {
     tables::write(folder, results)?;
-    let html = crate::report::html(&report::page(results, program));
-    let path = folder.file(REPORT);
-    folder.write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+    folder.write_text(REPORT, &crate::report::html(&report::page(results, program)))
 }
 
 fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
     let path = folder.file(LOG);
-    if !path.exists() {
-        return Ok((Log::create(&path)?, There::default()));
-    }
-    let (mut log, records) = Log::open(&path)?;
-    log.keep_until(records.last())?;
+    let (mut log, records) = Log::resume(&path)?;
     let mut there = There::default();
     for record in &records {
         let words = unpacked(&log.read(record)?);

@@ -18,7 +18,6 @@ use search::refine::{Cell, Refinement};
 use serde_json::json;
 use space::random::child_seed;
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use terrain::Construct;
 
@@ -119,18 +118,12 @@ pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
 
 fn finish(folder: &Folder, found: &Found<'_>, program: &str) -> Result<(), StoreError> {
     tables::write(folder, found)?;
-    let html = crate::report::html(&report::page(found, program));
-    let path = folder.file(REPORT);
-    folder.write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+    folder.write_text(REPORT, &crate::report::html(&report::page(found, program)))
 }
 
 fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
     let path = folder.file(LOG);
-    if !path.exists() {
-        return Ok((Log::create(&path)?, There::new()));
-    }
-    let (mut log, records) = Log::open(&path)?;
-    log.keep_until(records.last())?;
+    let (mut log, records) = Log::resume(&path)?;
     let there = known(&mut log, &records, &path)?;
     Ok((log, there))
 }

@@ -19,7 +19,6 @@ use measure::statistics::wilson;
 use search::elites::Told;
 use serde_json::json;
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use terrain::{Construct, Environment};
 
@@ -139,18 +138,12 @@ fn finish(folder: &Folder, results: &Results<'_>, program: &str) -> Result<(), S
         let environment = Environment { workspace, construct, schedule: None };
         environment_files(folder, &stem, &environment, &results.plan.population, seed, &title)?;
     }
-    let html = crate::report::html(&report::page(results, program));
-    let path = folder.file(REPORT);
-    folder.write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+    folder.write_text(REPORT, &crate::report::html(&report::page(results, program)))
 }
 
 fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
     let path = folder.file(LOG);
-    if !path.exists() {
-        return Ok((Log::create(&path)?, There::new()));
-    }
-    let (mut log, records) = Log::open(&path)?;
-    log.keep_until(records.last())?;
+    let (mut log, records) = Log::resume(&path)?;
     let mut there = There::new();
     for record in records.iter().filter(|record| record.kind == EVALUATED) {
         let &[method, run, stage, number, score, successes, trials, fitness, steps, material, pieces] =

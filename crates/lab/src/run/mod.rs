@@ -11,7 +11,6 @@ use crate::with_types;
 use bytes::Bytes;
 use recorder::{Message, Recorder};
 use serde_json::{Value as Json, json};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use swarm::engine::Checkpoint;
@@ -457,9 +456,7 @@ fn finish(folder: &Folder, request: &Request, seed: u64, mut log: Log, records: 
     let path = folder.file(KEYFRAMES);
     std::fs::rename(&part, &path).map_err(|error| StoreError::io("write", &path, error))?;
     let page = crate::report::of_run::page(folder.path(), &request.read, seed, request.quick, &request.program)?;
-    let html = crate::report::html(&page);
-    let path = folder.file(REPORT);
-    folder.write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+    folder.write_text(REPORT, &crate::report::html(&page))
 }
 
 /// What a table says of the run it comes from.

@@ -78,6 +78,14 @@ impl Folder {
     ) -> Result<(), StoreError> {
         whole_file(&self.file(name), fill)
     }
+    /// As [`Self::write`], a text.
+    ///
+    /// # Errors
+    /// Where the system refuses.
+    pub fn write_text(&self, name: &str, text: &str) -> Result<(), StoreError> {
+        let path = self.file(name);
+        self.write(name, |out| out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))
+    }
 }
 
 /// Writes a file so that it is either whole or as it was before.

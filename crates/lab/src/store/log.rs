@@ -49,6 +49,18 @@ impl Log {
     pub fn open(path: &Path) -> Result<(Self, Vec<Record>), StoreError> {
         Self::listed(path, OpenOptions::new().read(true).write(true))
     }
+    /// Opens a log to go on with it: its torn tail is cut off, and one that is not there is begun.
+    ///
+    /// # Errors
+    /// Where the system refuses, or the file is no log.
+    pub fn resume(path: &Path) -> Result<(Self, Vec<Record>), StoreError> {
+        if !path.exists() {
+            return Ok((Self::create(path)?, Vec::new()));
+        }
+        let (mut log, records) = Self::open(path)?;
+        log.keep_until(records.last())?;
+        Ok((log, records))
+    }
     /// As [`Self::open`], for a log that nothing will be written to.
     ///
     /// # Errors

@@ -14,7 +14,6 @@ use crate::store::log::{Log, Record};
 use crate::store::texts::Texts;
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, HashMap};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
@@ -309,19 +308,15 @@ pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
 fn finish(folder: &Folder, plan: &Plan, results: &Results, program: &str) -> Result<Vec<Judgement>, StoreError> {
     tables::write(folder, plan, results)?;
     let judgements = report::judgements(plan, results);
-    let html = crate::report::html(&report::page(plan, results, &judgements, program));
-    let path = folder.file(REPORT);
-    folder
-        .write(REPORT, |out| out.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))?;
+    folder.write_text(REPORT, &crate::report::html(&report::page(plan, results, &judgements, program)))?;
     Ok(judgements)
 }
 
 fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, Results), StoreError> {
     let path = folder.file(RESULTS);
-    if !path.exists() {
-        return Ok((Log::create(&path)?, vec![BTreeMap::new(); plan.conditions.len()]));
-    }
-    logged(&path, plan)
+    let (mut log, records) = Log::resume(&path)?;
+    let results = known(&mut log, &records, &path, plan)?;
+    Ok((log, results))
 }
 
 /// The log with what it holds of the plan's conditions. A torn tail is cut off.

@@ -12,7 +12,6 @@ use crate::store::{StoreError, folder::MANIFEST};
 use crate::with_tracks;
 use serde_json::{Value as Json, json};
 use space::parallel::Workers;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -120,10 +119,7 @@ pub fn write(out: &Path, request: &Request<'_>, all: &[Analysed]) -> Result<(), 
     let headings = tables::over_time();
     let blocks = each(&|run| tables::over_time_columns(&all[run], run), &headings)?;
     folder.write(tables::OVER_TIME, |file| join(file, &headings, &notes, blocks.into_iter()).map(|_| ()))?;
-    let html = crate::report::html(&of_tracks::page(request, all));
-    folder.write(REPORT, |file| {
-        file.write_all(html.as_bytes()).map_err(|error| StoreError::io("write", &out.join(REPORT), error))
-    })?;
+    folder.write_text(REPORT, &crate::report::html(&of_tracks::page(request, all)))?;
     manifest["status"] = json!("complete");
     folder.write_manifest(&manifest)
 }
