@@ -2,6 +2,7 @@
 
 import { Camera } from "./camera.js";
 import { boundsOf, boundsOfAgents } from "./frame.js";
+import { Painter } from "./painter.js";
 import { solids } from "./solids.js";
 import { Trails } from "./trails.js";
 import { clamp } from "./words.js";
@@ -210,6 +211,7 @@ export class Drawing {
     this.buffers = Object.fromEntries(["headings", "groups", "labels", "radii", "lines", "solids", "items"].map((name) => [name, gl.createBuffer()]));
     [, this.largest] = gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE);
     this.trails = new Trails(gl);
+    this.painter = new Painter(gl, program);
     this.counts = { lines: 0, solids: 0, items: 0 };
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
@@ -247,6 +249,7 @@ export class Drawing {
       groups.fill(index % 7, group.first, group.first + group.count);
       radii.fill(group.radius, group.first, group.first + group.count);
     });
+    this.own = { groups, radii };
     this.fill("groups", groups);
     this.trails.begin(scene, groups);
     this.fill("radii", radii);
@@ -287,7 +290,7 @@ export class Drawing {
     }
     this.frame = frame;
     this.trails.add(frame);
-    this.fill("headings", frame.headings, this.gl.STREAM_DRAW);
+    if (!this.painter.paints(frame.agents)) this.fill("headings", frame.headings, this.gl.STREAM_DRAW);
     if (frame.labels) this.fill("labels", frame.labels, this.gl.STREAM_DRAW);
     if (!this.hasView) this.fit();
   }
@@ -378,16 +381,22 @@ export class Drawing {
       gl.depthMask(true);
       free();
     }
-    const at = this.use("agent"), ratio = this.canvas.width / camera.wide;
-    const [across, up] = camera.axes();
+    const [across, up] = camera.axes(), ratio = this.canvas.width / camera.wide;
+    const view = {
+      across, up, ratio, scale: camera.scale, smallest: this.smallest(), largest: Math.min(LARGEST, this.largest / ratio / 2.3),
+      nearness: camera.isSpace ? camera.distance : 1, contour: frame.agents > MANY ? 0 : 1,
+    };
+    if (this.painter.paints(frame.agents)) {
+      this.painter.draw(frame, {
+        ...view, matrix: this.matrix, palette: this.palette, stage: this.colours.stage, isSpace: camera.isSpace,
+        fog: camera.isSpace ? camera.distance : 0, radii: this.own.radii, series: byLabel ? frame.labels : this.own.groups,
+      });
+      return;
+    }
+    const at = this.use("agent");
     gl.uniform3fv(at("across"), across);
     gl.uniform3fv(at("up"), up);
-    gl.uniform1f(at("scale"), camera.scale);
-    gl.uniform1f(at("smallest"), this.smallest());
-    gl.uniform1f(at("largest"), Math.min(LARGEST, this.largest / ratio / 2.3));
-    gl.uniform1f(at("ratio"), ratio);
-    gl.uniform1f(at("nearness"), camera.isSpace ? camera.distance : 1);
-    gl.uniform1f(at("contour"), frame.agents > MANY ? 0 : 1);
+    for (const name of ["scale", "smallest", "largest", "ratio", "nearness", "contour"]) gl.uniform1f(at(name), view[name]);
     this.attribute(0, D, this.trails.places, { offset: this.trails.newest });
     this.attribute(1, D, this.buffers.headings);
     this.attribute(2, 1, byLabel ? this.buffers.labels : this.buffers.groups, { kind: gl.UNSIGNED_BYTE });

@@ -1,21 +1,27 @@
-// The wall of built-in scenarios: a still of each; they play in turn, and the one that is pointed at plays.
+// The wall of built-in scenarios, and of what the command line named: those in view play, each over a connection of its own.
 
 import { Camera } from "./camera.js";
 import { Connection } from "./connection.js";
 import { boundsOf, readFrame, readScene } from "./frame.js";
-import { sketch } from "./sketch.js";
+import { backdrop, sketch } from "./sketch.js";
 import { readShape } from "./solids.js";
 import { colours, element, one, paragraphs, wantsCalm } from "./words.js";
 
-// a still shows a scenario after so many steps, when something has happened
+// where nothing shall move, a card shows its scenario after so many steps, when something has happened
 const STILL_STEPS = 120;
-// how long a card plays before it is the next one's turn, in ms
-const TURN = 5000;
+// time between two pictures of a card, in ms: there are many of them on the page
+const PAUSE = 90;
 const WIDE = 320, TALL = 200;
 
 export class Gallery {
   constructor(place, openScenario) {
-    Object.assign(this, { place, openScenario, cards: [], preview: null, isLoaded: false });
+    Object.assign(this, { place, openScenario, cards: [], isLoaded: false });
+    this.watch = new IntersectionObserver((entries) => {
+      for (const { target, isIntersecting } of entries) {
+        const card = this.cards.find(({ box }) => box === target);
+        if (card && !card.isSearch) { if (isIntersecting) card.preview ??= new Preview(card); else this.end(card); }
+      }
+    });
   }
 
   /** Shows the wall, with what the command line named before what is built in. */
@@ -38,16 +44,25 @@ export class Gallery {
     }
     const named = given.map((item, index) => ({ given: index, title: String(item.name), isSearch: item.kind === "search", about: item.kind === "search" ? `A folder: ${item.of}.` : item.kind === "run" ? "A recorded run, named on the command line." : "A scenario, named on the command line or dropped here." }));
     state.textContent = this.list.length + named.length === 0 ? "There is nothing in the gallery." : "";
+    this.cards.forEach((card) => this.end(card));
     this.cards = [...named, ...this.list].map((item) => this.card(item));
     wall.replaceChildren(...this.cards.map(({ box }) => box));
-    this.takeStills();
+    this.begin();
   }
 
   hide() {
     this.place.hidden = true;
-    this.preview?.end();
-    this.preview = null;
+    this.watch.disconnect();
+    this.cards.forEach((card) => this.end(card));
   }
+
+  /** From now on, cards that come into view play. */
+  begin() {
+    this.watch.disconnect();
+    this.cards.forEach((card) => { this.end(card); this.watch.observe(card.box); });
+  }
+
+  end(card) { card.preview?.end(); card.preview = null; }
 
   card(item) {
     const canvas = element("canvas", { width: WIDE, height: TALL });
@@ -57,128 +72,78 @@ export class Gallery {
     const box = element("li", { className: "card" }, canvas, element("h3", {}, button), about, element("p", { className: "facts-of", textContent: facts.filter(Boolean).join(" · ") }));
     canvas.setAttribute("aria-hidden", "true");
     // of a search there is no single scene
-    const card = { box, canvas, what: item.given === undefined ? { gallery: item.id } : { given: item.given }, isSearch: item.isSearch === true, isDrawn: item.isSearch === true };
+    const card = { box, canvas, what: item.given === undefined ? { gallery: item.id } : { given: item.given }, isSearch: item.isSearch === true, preview: null };
     box.dataset.id = item.id ?? `given-${item.given}`;
     button.addEventListener("click", () => this.openScenario(card.what));
-    const play = () => { if (!wantsCalm() && !card.isSearch) this.preview?.play(card); };
-    const stop = () => this.preview?.stop(card);
-    box.addEventListener("pointerenter", play);
-    box.addEventListener("pointerleave", stop);
-    button.addEventListener("focus", play);
-    button.addEventListener("blur", stop);
     return card;
   }
 
-  takeStills() {
-    this.preview?.end();
-    const edges = (card) => card.box.getBoundingClientRect();
-    const stillOf = () => this.cards.find((card) => !card.isDrawn && edges(card).top < 2 * innerHeight);
-    const after = (last) => {
-      const from = this.cards.indexOf(last) + 1;
-      const inTurn = [...this.cards.slice(from), ...this.cards.slice(0, from)];
-      return inTurn.find((card) => edges(card).top >= 0 && edges(card).top < innerHeight);
-    };
-    this.preview = new Preview(stillOf, after);
-    this.place.onscroll = () => this.preview?.next();
-  }
-
-  repaint() {
-    for (const card of this.cards) card.isDrawn = card.isSearch;
-    if (!this.place.hidden) this.takeStills();
-  }
+  repaint() { if (!this.place.hidden) this.begin(); }
 }
 
-/** One connection, lent to a card at a time. */
+/** What a card shows: a simulation of its own, or a record. */
 class Preview {
-  /** `nextCard()` is one that needs a still, `after(card)` the one whose turn it is to play. */
-  constructor(nextCard, after) {
-    Object.assign(this, { nextCard, after, card: null, plays: false, scene: null, frame: null, obstacles: [], waits: false, last: null, turn: 0 });
+  constructor(card) {
+    Object.assign(this, { card, scene: null, frame: null, obstacles: [], behind: null, timer: 0, drawn: -Infinity, isCalm: wantsCalm() });
     this.camera = new Camera();
     this.connection = new Connection({
       state: () => {},
       message: (message) => this.receive(message),
       frame: (buffer) => {
-        const frame = readFrame(buffer);
-        if (this.scene && frame.dimensions === this.scene.dimensions) { this.frame = frame; this.request(); }
-        else this.connection.send({ do: "seen", number: frame.number });
+        // a frame that another one replaces is seen too: the server sends none while two are unseen
+        this.seen();
+        this.frame = readFrame(buffer);
+        if (this.scene && this.frame.dimensions === this.scene.dimensions) this.request(); else this.seen();
       },
       // a preview is no place for complaints: the scene itself says what is wrong
-      broken: () => this.done(),
+      broken: () => this.end(),
     });
   }
 
-  end() { clearTimeout(this.turn); this.connection.end(); }
+  end() { clearTimeout(this.timer); this.connection.end(); }
 
-  open(card, plays) {
-    // a frame that was not drawn in time is seen too: the server sends none while two are unseen
-    if (this.frame) this.connection.send({ do: "seen", number: this.frame.number });
-    Object.assign(this, { card, plays, scene: null, frame: null, obstacles: [] });
-    if (card) this.connection.send({ do: "open", ...card.what });
-  }
-
-  next() {
-    if (this.card !== null || !this.connection.isOpen) return;
-    const still = this.nextCard() ?? null;
-    this.open(still, false);
-    clearTimeout(this.turn);
-    // who scrolls or points finds the wall as it was: a turn begins when nothing else has for a while
-    if (still === null && !wantsCalm()) this.turn = setTimeout(() => this.takeTurn(), TURN / 10);
-  }
-
-  takeTurn() {
-    const card = this.card === null ? this.after(this.last) : undefined;
-    if (!card) return;
-    this.last = card;
-    this.open(card, true);
-    this.turn = setTimeout(() => this.stop(card), TURN);
-  }
-
-  done() {
-    if (this.card) this.card.isDrawn = true;
-    this.card = null;
-    this.next();
-  }
-
-  play(card) {
-    clearTimeout(this.turn);
-    if (this.card === card && this.scene) { this.plays = true; this.connection.send({ do: "play" }); } else this.open(card, true);
-  }
-
-  stop(card) {
-    if (this.card !== card || !this.plays) return;
-    clearTimeout(this.turn);
-    this.connection.send({ do: "pause" });
-    this.done();
+  seen() {
+    if (this.frame && this.frame.number !== this.told) { this.told = this.frame.number; this.connection.send({ do: "seen", number: this.told }); }
   }
 
   receive(message) {
-    if (message.is === "hello") this.next();
-    if (message.is === "problem" && this.card) this.done();
-    if (message.is === "scene" && this.card) {
-      this.scene = readScene(message);
-      if (this.plays) this.connection.send({ do: "play" });
-      else if (this.scene.isRun) this.connection.send({ do: "seek", frame: Math.floor(this.scene.frames / 2) });
-      else this.connection.send({ do: "step", count: STILL_STEPS });
+    const { connection } = this;
+    if (message.is === "hello") connection.send({ do: "open", ...this.card.what });
+    if (message.is === "problem") this.end();
+    if (message.is === "scene") {
+      Object.assign(this, { scene: readScene(message), frame: null, obstacles: [], behind: null });
+      const { isRun, frames } = this.scene;
+      if (this.isCalm) connection.send(isRun ? { do: "seek", frame: Math.floor(frames / 2) } : { do: "step", count: STILL_STEPS });
+      else { if (isRun) connection.send({ do: "loop", on: true }); connection.send({ do: "play" }); }
     }
-    if (message.is === "obstacles" && this.scene) this.obstacles = (message.list ?? []).map(readShape).filter((shape) => shape !== null);
+    if (message.is === "obstacles" && this.scene) {
+      Object.assign(this, { obstacles: (message.list ?? []).map(readShape).filter((shape) => shape !== null), behind: null });
+    }
   }
 
   request() {
-    if (this.waits) return;
-    this.waits = true;
-    requestAnimationFrame(() => {
-      this.waits = false;
-      const { card, frame, scene, camera } = this;
-      if (!card || !frame || !scene) return;
-      const bounds = boundsOf(scene, frame), ratio = Math.min(devicePixelRatio || 1, 2);
-      Object.assign(camera, { wide: WIDE, tall: TALL });
-      camera.setBounds(scene.dimensions, ...bounds);
-      camera.fit();
-      Object.assign(card.canvas, { width: WIDE * ratio, height: TALL * ratio });
-      sketch(card.canvas.getContext("2d"), scene, camera, frame, this.obstacles, colours(), ratio);
-      this.connection.send({ do: "seen", number: frame.number });
-      // a still is done when its steps are
-      if (!this.plays && (scene.isRun ? frame.step > 0 : frame.step >= Math.min(STILL_STEPS, scene.steps ?? STILL_STEPS))) this.done();
-    });
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => requestAnimationFrame((now) => this.picture(now)), Math.max(0, this.drawn + PAUSE - performance.now()));
+  }
+
+  picture(now) {
+    const { card: { canvas }, frame, scene, camera } = this;
+    if (this.connection.ended || !frame || !scene) return;
+    this.drawn = now;
+    const ratio = Math.min(devicePixelRatio || 1, 2), before = this.behind && [camera.scale, ...camera.centre];
+    Object.assign(camera, { wide: WIDE, tall: TALL });
+    camera.setBounds(scene.dimensions, ...boundsOf(scene, frame));
+    camera.fit();
+    // what does not move is drawn once
+    if (!before || [camera.scale, ...camera.centre].some((value, at) => value !== before[at])) {
+      this.behind ??= element("canvas", { width: WIDE * ratio, height: TALL * ratio });
+      backdrop(this.behind.getContext("2d"), scene, camera, this.obstacles, colours(), ratio);
+    }
+    Object.assign(canvas, { width: WIDE * ratio, height: TALL * ratio });
+    sketch(canvas.getContext("2d"), this.behind, scene, camera, frame, colours(), ratio);
+    this.card.box.dataset.step = frame.step;
+    this.seen();
+    // a still is done when its steps are
+    if (this.isCalm && (scene.isRun ? frame.step > 0 : frame.step >= Math.min(STILL_STEPS, scene.steps ?? STILL_STEPS))) this.end();
   }
 }

@@ -24,7 +24,7 @@ export class Pane {
     this.veil = element("div", { className: "veil", role: "status" });
     place.append(this.canvas, this.overlay, this.scale, this.veil);
     Object.assign(this, {
-      scene: null, frame: null, pending: null, unseen: [], status: null, focal: null, explanations: new Map(), waited: 0,
+      scene: null, frame: null, pending: null, unseen: [], status: null, focal: null, explanations: new Map(), waited: 0, awaited: PATIENCE,
       opened: null, changes: new Map(), restores: null, camera: "still", wantsPicture: false, ended: false, asked: null,
     });
     try {
@@ -79,7 +79,10 @@ export class Pane {
   focus(agent) {
     this.focal = agent;
     this.explanations.clear();
+    this.awaited = agent === null ? PATIENCE : 0;
     this.send({ do: "focus", agent });
+    // who was chosen is seen before the explanation comes
+    if (this.drawing && this.scene) this.annotate();
     this.request();
   }
 
@@ -198,6 +201,12 @@ export class Pane {
 
   picture(now) {
     if (!this.scene) return;
+    // a picture of agents would come between a click and its answer
+    if (this.frame && this.awaited < PATIENCE && this.explanations.size === 0) {
+      this.awaited += 1;
+      this.request();
+      return;
+    }
     if (this.pending) {
       // frames that were under way when the agent was chosen come without
       const isUnexplained = this.focal !== null && this.explanations.size > 0 && !this.explanations.has(this.pending.step);

@@ -7,8 +7,8 @@ const MOST_AGENTS = 1500;
 const css = ([red, green, blue]) => `rgb(${Math.round(255 * red)} ${Math.round(255 * green)} ${Math.round(255 * blue)})`;
 const ARROW = [[1, 0], [-0.8, 0.68], [-0.4, 0], [-0.8, -0.68]];
 
-/** Draws a frame; of very many agents, only some. */
-export function sketch(pen, scene, camera, frame, obstacles, colours, ratio) {
+/** Draws all of a scene that stands still. */
+export function backdrop(pen, scene, camera, obstacles, colours, ratio) {
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.fillStyle = css(camera.isSpace ? colours.stage : colours.ground);
   pen.fillRect(0, 0, camera.wide, camera.tall);
@@ -34,6 +34,13 @@ export function sketch(pen, scene, camera, frame, obstacles, colours, ratio) {
     pen.stroke();
   }
   pen.setLineDash([]);
+}
+
+/** Draws a frame before its backdrop; of very many agents, only some. */
+export function sketch(pen, behind, scene, camera, frame, colours, ratio) {
+  pen.setTransform(1, 0, 0, 1, 0, 0);
+  pen.drawImage(behind, 0, 0);
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   const { positions, headings, dimensions: D } = frame;
   const [across, up] = camera.axes();
   const stride = Math.max(1, Math.ceil(frame.agents / MOST_AGENTS)), least = frame.agents > 400 ? 2.2 : 3.4;

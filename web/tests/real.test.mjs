@@ -12,7 +12,7 @@ import { built } from "./built.mjs";
 const root = fileURLToPath(new URL("../..", import.meta.url));
 const pictures = `${root}target/pages`;
 const scratch = mkdtempSync(`${tmpdir()}/flockworks-view-`);
-const run = `${scratch}/run`;
+const run = `${scratch}/run`, mill = `${scratch}/mill`;
 
 let browser, program;
 
@@ -20,6 +20,7 @@ before(async () => {
   mkdirSync(pictures, { recursive: true });
   program = built("flockworks");
   execFileSync(program, ["run", "studies/schooling.toml", "--quick", "--out", run], { cwd: root, stdio: "ignore" });
+  execFileSync(program, ["run", "studies/gallery/mill.toml", "--quick", "--out", mill], { cwd: root, stdio: "ignore" });
   browser = await chromium.launch({
     executablePath: "/usr/bin/chromium",
     args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
@@ -69,13 +70,52 @@ function same(shown, explained) {
   }
 }
 
-/** What the command says of an agent in a frame of the run. */
-const explained = (frame, agent) => JSON.parse(execFileSync(program, ["explain", run, "--frame", `${frame}`, "--agent", `${agent}`]));
+/** What the command says of an agent in a frame of a run. */
+const explained = (frame, agent, of = run) => JSON.parse(execFileSync(program, ["explain", of, "--frame", `${frame}`, "--agent", `${agent}`]));
+
+const ring = (page, agent) => page.locator(`.overlay .focal-ring[data-agent="${agent}"]`);
+const shownStep = (page) => page.locator(".time").getAttribute("data-step").then(Number);
+
+/** The arrows over the picture: name and magnitude. */
+const arrows = (page) => page.locator(".overlay .arrow.component").evaluateAll((list) =>
+  list.map(({ dataset }) => [dataset.arrow, Number(dataset.magnitude)]));
+
+/** The arrows that an explanation asks for: of components that are not zero. */
+const asked = ({ components: parts }) => parts.filter((part) => part.magnitude > 0).map((part) => [part.name, part.magnitude]);
+
+/** How many colours the picture of agents has. */
+async function colours(page) {
+  const bytes = await page.locator("canvas").first().screenshot();
+  return page.evaluate(async (text) => {
+    const picture = await createImageBitmap(new Blob([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))]));
+    const pen = new OffscreenCanvas(picture.width, picture.height).getContext("2d");
+    pen.drawImage(picture, 0, 0);
+    return new Set(new Uint32Array(pen.getImageData(0, 0, picture.width, picture.height).data.buffer)).size;
+  }, bytes.toString("base64"));
+}
+
+/** Chooses an agent by its number, lets it go, and clicks where it was; gives the one that was clicked. */
+async function clicked(page, agent) {
+  await page.locator("input.agent").fill(`${agent}`);
+  await page.locator("input.agent").press("Enter");
+  await ring(page, agent).waitFor();
+  const place = await ring(page, agent).evaluate((circle) => [circle.cx.baseVal.value, circle.cy.baseVal.value]);
+  await page.keyboard.press("Escape");
+  await page.locator(".overlay .focal-ring").waitFor({ state: "detached" });
+  const box = await page.locator("canvas").first().boundingBox();
+  await page.mouse.click(box.x + place[0], box.y + place[1]);
+  await page.locator(".overlay .arrow.component").first().waitFor();
+  return Number(await page.locator(".overlay .focal-ring").getAttribute("data-agent"));
+}
 
 describe("the real server", () => {
   test("the gallery shows every scenario", () => opened([], async (page) => {
     await page.locator("#gallery .wall li").nth(8).waitFor();
     assert.equal(await page.locator("#gallery .wall li").count(), 9);
+    await page.setViewportSize({ width: 1280, height: 1100 });
+    await page.waitForFunction(() => [...document.querySelectorAll(".card")].every(({ dataset }) => Number(dataset.step) > 0));
+    await page.waitForTimeout(1000);
+    await page.screenshot({ path: `${pictures}/watch-gallery.png` });
   }));
 
   test("a simulation plays, and a changed parameter is in the saved file", () => opened(["studies/gallery/mill.toml"], async (page) => {
@@ -105,6 +145,56 @@ describe("the real server", () => {
     await page.waitForFunction((step) => document.querySelector(".time").textContent.includes(`${step}`), expected.step);
     same(await components(page), expected.components);
     await page.screenshot({ path: `${pictures}/view-explained.png` });
+  }));
+
+  test("a run folder is drawn, plays and scrubs, and a click shows the arrows of the command", () => opened([mill], async (page) => {
+    await page.locator(".time[data-step]").waitFor();
+    assert.ok(await colours(page) > 10);
+    const first = await shownStep(page);
+    await page.keyboard.press("Space");
+    await page.waitForFunction((first) => Number(document.querySelector(".time").dataset.step) > first, first);
+    await page.keyboard.press("Space");
+    await page.locator(".scrub").evaluate((input) => { input.value = "20"; input.dispatchEvent(new Event("input", { bubbles: true })); });
+    await page.locator(`.time[data-step="${explained(20, 0, mill).step}"]`).waitFor();
+    const agent = await clicked(page, 7);
+    const expected = explained(20, agent, mill);
+    assert.ok(asked(expected).length > 0);
+    assert.deepEqual(await arrows(page), asked(expected));
+    same(await components(page), expected.components);
+    await page.screenshot({ path: `${pictures}/watch-run.png` });
+  }));
+
+  test("a click in a simulation shows the arrows of the same moment of its record", () => opened(["studies/gallery/mill.toml"], async (page) => {
+    await page.locator(".time[data-step='0']").waitFor();
+    await page.locator("canvas").first().focus();
+    const { step } = explained(1, 0, mill);
+    for (let now = 0; now < step; now += 1) await page.keyboard.press("ArrowRight");
+    await page.locator(`.time[data-step='${step}']`).waitFor();
+    const agent = await clicked(page, 7);
+    assert.deepEqual(await arrows(page), asked(explained(1, agent, mill)));
+    await page.screenshot({ path: `${pictures}/watch-live.png` });
+  }));
+
+  test("a changed parameter changes the run", () => opened(["studies/gallery/mill.toml"], async (page) => {
+    await page.locator(".time[data-step='0']").waitFor();
+    const slider = page.locator("#parameters input[type=range]").first();
+    await slider.evaluate((input) => { input.value = "3"; input.dispatchEvent(new Event("input", { bubbles: true })); });
+    await page.locator("#events li").first().waitFor();
+    await page.locator("canvas").first().focus();
+    const { step, position } = explained(1, 7, mill);
+    for (let now = 0; now < step; now += 1) await page.keyboard.press("ArrowRight");
+    await page.locator(`.time[data-step='${step}']`).waitFor();
+    await page.locator("input.agent").fill("7");
+    await page.locator("input.agent").press("Enter");
+    await page.locator(".overlay .arrow.component").first().waitFor();
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.locator("[data-do=save]").click()]);
+    const file = `${scratch}/changed.toml`, out = `${scratch}/changed`;
+    await saved.saveAs(file);
+    execFileSync(program, ["run", file, "--quick", "--out", out], { stdio: "ignore" });
+    // what the page shows is what the saved file computes, and not what the old one does
+    const changed = explained(1, 7, out);
+    assert.notDeepEqual(changed.position, position);
+    assert.deepEqual(await arrows(page), asked(changed));
   }));
 
   test("live and recorded, the same moment is explained alike", () => opened(["studies/schooling.toml"], async (page) => {

@@ -28,6 +28,7 @@ parts! {
     "pair.js": "text/javascript; charset=utf-8";
     "pane.js": "text/javascript; charset=utf-8";
     "paper.js": "text/javascript; charset=utf-8";
+    "painter.js": "text/javascript; charset=utf-8";
     "panel.js": "text/javascript; charset=utf-8";
     "picture.js": "text/javascript; charset=utf-8";
     "plot.js": "text/javascript; charset=utf-8";

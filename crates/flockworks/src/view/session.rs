@@ -162,7 +162,8 @@ impl Session {
         match verb {
             "play" => {
                 self.playing = true;
-                self.due = 0.0;
+                // the first step comes at once
+                self.due = 1.0;
                 self.clock = Instant::now();
             }
             "pause" => {
