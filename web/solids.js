@@ -16,6 +16,7 @@ export function readShape(shape) {
     if (shape.ball && isNumber(shape.ball.radius)) return { ball: { centre: vector(shape.ball.centre), radius: shape.ball.radius } };
     if (shape.segment) return { segment: { from: vector(shape.segment.from), to: vector(shape.segment.to) } };
     if (Array.isArray(shape.polygon) && shape.polygon.length > 2) return { polygon: shape.polygon.map(vector) };
+    if (Array.isArray(shape.guide) && shape.guide.length > 1) return { guide: shape.guide.map(vector) };
     if (shape.box) return { box: { low: vector(shape.box.low), high: vector(shape.box.high) } };
   } catch { /* it is left out */ }
   return null;
@@ -141,6 +142,7 @@ export function solids(scene, { low, high }, obstacles, colours) {
     if (shape.segment) line(shape.segment.from, shape.segment.to, colours.text, 2.4);
     if (shape.polygon) polygon(shape.polygon);
     if (shape.box) box(shape.box);
+    if (shape.guide) shape.guide.slice(1).forEach((place, at) => line(shape.guide[at], place, colours.faint, 1.2, 4));
   }
   return { triangles: new Float32Array(triangles), lines: new Float32Array(lines) };
 }
