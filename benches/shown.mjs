@@ -3,13 +3,13 @@
 //     node benches/shown.mjs FLOCKWORKS [study|wall|export...]
 //
 // `web/tests` holds the browser's driver (`npm install` there). A line of JSON comes out for each part. The study has the 281 cells of
-// studies/behaviour-selection/all.toml and 100 trials of each, with all its readings, filled with trials of half a second in place of
-// fifteen minutes: what is opened has the same size, and takes a minute to make in place of hours. The wall has 1,000 feasible
+// studies/behaviour-selection/all.toml and 100 trials of each, with all its readings, filled with trials of three steps in place of
+// 6,000: what is opened has the same size, and takes minutes to make in place of hours. The wall has 1,000 feasible
 // environments. No test: the numbers depend on the machine; benches/README.md keeps them. A complaint of the page ends it with exit
 // code 1.
 
 import { execFileSync, spawn } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
 import { chromium } from "../web/tests/node_modules/playwright-core/index.mjs";
@@ -71,7 +71,12 @@ async function loads(page, address, ready) {
 async function study() {
   const folder = `${scratch}/study`;
   if (!existsSync(`${folder}/report.html`)) {
-    run("run", "studies/behaviour-selection/all.toml", "--set", "set.time.duration=0.5", "--set", "set.time.record=0.1", "--trials", "1-100", "--out", folder);
+    // what all experiments share, with three steps in place of 6,000
+    cpSync(`${root}studies/behaviour-selection`, `${scratch}/behaviour-selection`, { recursive: true });
+    const common = `${scratch}/behaviour-selection/common.toml`;
+    const shorter = [["duration = 600", "duration = 0.3"], ["from = 481\ninterval = 1", "from = 0.1\ninterval = 0.1"], ["[scenario.record]\ninterval = 1", "[scenario.record]\ninterval = 0.1"], ["cells = 10, from = 1", "cells = 10, from = 0.1"]];
+    writeFileSync(common, shorter.reduce((text, [from, to]) => { if (!text.includes(from)) throw new Error(`${common} lacks ${from}`); return text.replace(from, to); }, readFileSync(common, "utf8")));
+    run("run", `${scratch}/behaviour-selection/all.toml`, "--out", folder);
   }
   return opened(folder, async (page, address) => {
     const first = await loads(page, address, () => document.querySelectorAll(".multiple[data-cell]").length > 0 && document.querySelector("#searched .state").textContent === "");
@@ -108,7 +113,7 @@ async function wall() {
 
 async function exported() {
   const folder = `${scratch}/long`;
-  if (!existsSync(`${folder}/report.html`)) run("run", "studies/schooling.toml", "--set", "time.duration=600", "--set", "time.record=0.1", "--out", folder);
+  if (!existsSync(`${folder}/report.html`)) run("run", "studies/schooling.toml", "--set", "time.duration=600", "--set", "record.interval=0.1", "--out", folder);
   const began = performance.now();
   const told = run("export", folder, "--to", "html", "--every", "1", "--out", scratch).trim();
   return { part: "export", told: told.replace(`${scratch}/`, ""), bytes: statSync(`${scratch}/long.html`).size, seconds: rounded((performance.now() - began) / 1000) };

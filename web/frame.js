@@ -53,9 +53,9 @@ export function boundsOfAgents({ positions, agents, dimensions }) {
   return [low.map((end) => end - room), high.map((end) => end + room)];
 }
 
-/** What is to be seen as a whole: the space where it ends, the agents where it does not. */
-export function boundsOf({ space, dimensions }, frame) {
-  const agents = frame ? boundsOfAgents(frame) : null;
+/** What is to be seen as a whole: the space where it ends, the agents where it does not; of what is known to its end, all of it. */
+export function boundsOf({ space, dimensions, of }, frame) {
+  const agents = frame && !of ? boundsOfAgents(frame) : null;
   const side = (ends, which) => [0, 1, 2].map((axis) => {
     if (axis >= dimensions) return 0;
     return (space.edges[axis] === "open" && agents ? agents[which][axis] : ends[axis]) ?? which;

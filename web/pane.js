@@ -142,7 +142,7 @@ export class Pane {
     this.show(scene.agents === 0 ? "Nobody is in this scene." : "");
     if (!isSame) {
       this.focal = null;
-      this.camera = scene.space.edges.every((edge) => edge === "open") ? "flock" : "still";
+      this.camera = scene.of === "" && scene.space.edges.every((edge) => edge === "open") ? "flock" : "still";
     }
     if (this.focal !== null && this.focal >= scene.agents) this.focal = null;
     if (this.focal !== null) this.send({ do: "focus", agent: this.focal });

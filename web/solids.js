@@ -64,7 +64,8 @@ export function solids(scene, { low, high }, obstacles, colours) {
   const quad = (a, b, c, d, normal, colour) => { triangle([a, b, c], [normal], colour); triangle([a, c, d], [normal], colour); };
   const corner = (bits) => [0, 1, 2].map((axis) => (bits >> axis & 1 ? high[axis] : low[axis]));
 
-  const hasEnds = scene.space.edges.some((edge) => edge !== "open");
+  // of what was recorded, the box that holds all of it is the floor
+  const hasEnds = scene.of === "tracks" || scene.space.edges.some((edge) => edge !== "open");
   if (scene.dimensions === 2 && hasEnds) quad(corner(0), corner(1), corner(3), corner(2), FLAT, colours.stage);
   if (isSpace) {
     const parts = 8;

@@ -215,7 +215,7 @@ describe("searches", () => {
     run("export", `${scratch}/optimisation`, "--to", "csv");
     const [names, ...rows] = readFileSync(`${scratch}/optimisation/best.csv`, "utf8").trim().split("\n").map((line) => line.split(","));
     const shown = (await page.locator(".detail tr", { hasText: "successes" }).locator("td").first().innerText()).split(" of ").map(Number);
-    const told = rows.filter((row) => row[names.indexOf("method")] === "uniform").map((row) => [Number(row[names.indexOf("successes")]), Number(row[names.indexOf("trials")])]);
+    const told = rows.filter((row) => row[names.indexOf("method")] === "uniform").map((row) => [Math.round(Number(row[names.indexOf("rate")]) * Number(row[names.indexOf("trials")])), Number(row[names.indexOf("trials")])]);
     assert.ok(told.some(([successes, trials]) => successes === shown[0] && trials === shown[1]), `${shown} is not among ${told}`);
     await copies(page);
     await page.screenshot({ path: `${pictures}/view-optimisation.png` });
@@ -275,7 +275,7 @@ describe("tracks", () => {
     await seen(page);
     assert.equal(await page.locator("#about .legend li").count(), 5);
     assert.match(await page.locator(".scale").first().getAttribute("data-length"), /px/);
-    assert.match(await page.locator(".time").innerText(), /frame 0 of 299/);
+    assert.match(await page.locator(".time").innerText(), /frame 0 of 300/);
     assert.ok(await page.locator(".charts figure").count() > 5);
     // a click on a chart goes to that time
     await page.locator(".charts figure canvas").first().click({ position: { x: 160, y: 30 } });
@@ -432,7 +432,7 @@ describe("what is sent", () => {
     await dropFiles(page, filesOf(`${scratch}/formation`));
     await page.locator(".multiple").first().waitFor();
     await dropFiles(page, [`${root}studies/tracks/sticklebacks.csv`]);
-    await page.waitForFunction(() => Number(document.querySelector(".scrub").max) === 299);
+    await page.waitForFunction(() => Number(document.querySelector(".scrub").max) === 300);
     // nobody wrote down the frame rate: it is said, and not guessed
     await page.locator("#notice", { hasText: "--fps" }).waitFor();
     await dropFiles(page, [`${scratch}/run/trajectory.parquet`]);

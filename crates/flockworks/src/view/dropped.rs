@@ -208,7 +208,10 @@ mod tests {
     fn files_come_one_after_the_other_and_lead_nowhere_else() {
         let body = b"[{\"path\":\"run/manifest.json\",\"size\":2},{\"path\":\"run/a.parquet\",\"size\":3}]\n{}abc";
         let files = unpacked(body).unwrap();
-        assert_eq!(files, [(PathBuf::from("run/manifest.json"), &b"{}"[..]), (PathBuf::from("run/a.parquet"), &b"abc"[..])]);
+        assert_eq!(
+            files,
+            [(PathBuf::from("run/manifest.json"), &b"{}"[..]), (PathBuf::from("run/a.parquet"), &b"abc"[..])]
+        );
         for wrong in [
             &b"[{\"path\":\"../a\",\"size\":0}]\n"[..],
             b"[{\"path\":\"/a\",\"size\":0}]\n",

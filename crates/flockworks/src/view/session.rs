@@ -243,9 +243,7 @@ impl Session {
                     let kind = kinds::of_folder(&path).map_err(|fault| LiveError::Request(fault.to_string()))?;
                     (kind.show(&path, recording)?, true)
                 }
-                Some(Given::Search(_, _, search)) => {
-                    search.watched(&place)?.shown(threads)?
-                }
+                Some(Given::Search(_, _, search)) => search.watched(&place)?.shown(threads)?,
                 None => return Err(LiveError::Request("the command line named nothing to open".into())),
             }
         };

@@ -31,12 +31,18 @@ pub fn replay(
 ) -> Result<Replay, String> {
     let own = &plan.methods[method];
     let arena = plan.arena(task, own, walls);
-    let there: Vec<Outline> =
-        plan.workspace.workspace.geometry.iter().flat_map(|geometry| geometry.segments()).map(|at| segment(&at)).collect();
+    let there: Vec<Outline> = plan
+        .workspace
+        .workspace
+        .geometry
+        .iter()
+        .flat_map(|geometry| geometry.segments())
+        .map(|at| segment(&at))
+        .collect();
     let mut frames: Vec<(f64, Vec<Point>, Vec<Outline>)> = Vec::new();
-    let (mut step, mut robots, mut last) = (0u64, 0, None);
+    let (mut step, mut robots, mut last, mut body) = (0u64, 0, None, 0.0);
     trial::run(&arena, plan.seed_of(task, number), &|| false, &mut |shown| {
-        robots = shown.robots.len();
+        (robots, body) = (shown.robots.len(), shown.target_radius);
         let mut outlines = there.clone();
         let standing = arena.walls.iter().zip(shown.standing).filter(|(_, standing)| **standing);
         outlines.extend(standing.map(|(wall, _)| segment(&wall.at)));
@@ -52,18 +58,15 @@ pub fn replay(
     frames.extend(last);
     let mut group = own.population.types.clone();
     let mut groups = own.population.groups.clone();
-    let body = |name: &String| {
-        let found = own.population.scenario.group.0.iter().find(|(other, _)| other == name);
-        found.and_then(|(_, group)| group.physics.as_ref()?.radius).unwrap_or(0.0)
-    };
-    let mut radius: Vec<f64> = groups.iter().map(body).collect();
+    let mut radius = vec![body; groups.len()];
     if robots > 0 {
         group.extend(std::iter::repeat_n(groups.len(), robots));
         groups.push(SHEPHERDS.into());
         radius.push(own.shepherds.radius);
     }
     let corners = plan.workspace.workspace.boundary.iter().flatten();
-    let all: Vec<Point> = frames.iter().flat_map(|frame| &frame.1).chain(&plan.tasks[task].path).chain(corners).copied().collect();
+    let all: Vec<Point> =
+        frames.iter().flat_map(|frame| &frame.1).chain(&plan.tasks[task].path).chain(corners).copied().collect();
     let bound = |axis: usize, of: fn(f64, f64) -> f64, from: f64| all.iter().map(|p| p[axis]).fold(from, of);
     let (low, high) = (
         [bound(0, f64::min, f64::INFINITY), bound(1, f64::min, f64::INFINITY), 0.0],

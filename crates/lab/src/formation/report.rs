@@ -7,9 +7,7 @@ use super::{course, trial};
 use crate::design::report::{add_ways, put};
 use crate::environment::claims;
 use crate::report::of_run::paragraphs;
-use crate::report::{
-    Drawing, Drawings, Fact, Figure, Listing, Page, Replay, Stroke, Table, short,
-};
+use crate::report::{Drawing, Drawings, Fact, Figure, Listing, Page, Replay, Stroke, Table, short};
 use space::Vector;
 use terrain::Point;
 

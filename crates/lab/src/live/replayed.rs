@@ -214,8 +214,14 @@ mod tests {
         let mut shown = Replayed::new(course(4)).unwrap();
         let scene = shown.scene();
         assert_eq!(scene["frames"], 4);
-        assert_eq!(scene["groups"][1], json!({ "name": "shepherds", "model": "", "title": "", "first": 2, "count": 1, "radius": 0.2 }));
-        assert_eq!((&scene["space"]["size"], &scene["space"]["edges"]), (&json!([4.0, null]), &json!(["walls", "open"])));
+        assert_eq!(
+            scene["groups"][1],
+            json!({ "name": "shepherds", "model": "", "title": "", "first": 2, "count": 1, "radius": 0.2 })
+        );
+        assert_eq!(
+            (&scene["space"]["size"], &scene["space"]["edges"]),
+            (&json!([4.0, null]), &json!(["walls", "open"]))
+        );
         assert_eq!(shown.advance(9).unwrap(), 3);
         assert_eq!(shown.moment(), (3, 1.5, Some(3)));
         let list = shown.obstacles();

@@ -161,7 +161,8 @@ pub fn look(path: &Path) -> Result<Looked, StoreError> {
         there = known(&mut log, &records, &path)?;
     }
     let mut nothing_missing = |units: Vec<Unit>, _: &mut There| Ok(units.is_empty());
-    let complete = optimised(&plan, &mut there, &mut nothing_missing)?.map(|results| (results.runs, results.control, results.lighter));
+    let complete = optimised(&plan, &mut there, &mut nothing_missing)?
+        .map(|results| (results.runs, results.control, results.lighter));
     let (runs, control, lighter) = match complete {
         Some(all) => all,
         None => {

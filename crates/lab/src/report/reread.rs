@@ -36,7 +36,15 @@ pub fn replays(page: &str) -> Result<Vec<(String, Replay)>, String> {
 
 /// Text without what markup needs.
 fn plain(text: &str) -> String {
-    let pairs = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&#39;", "'"), ("&#x27;", "'"), ("&#x2f;", "/"), ("&amp;", "&")];
+    let pairs = [
+        ("&lt;", "<"),
+        ("&gt;", ">"),
+        ("&quot;", "\""),
+        ("&#39;", "'"),
+        ("&#x27;", "'"),
+        ("&#x2f;", "/"),
+        ("&amp;", "&"),
+    ];
     pairs.iter().fold(text.trim().to_owned(), |text, (written, meant)| text.replace(written, meant))
 }
 
@@ -132,7 +140,11 @@ fn replay(value: &Json) -> Option<Replay> {
                 return [0.0; 3];
             }
             let angle = f64::from(turn) / 255.0 * core::f64::consts::TAU;
-            let polar = if axes == 3 { f64::from(frame[2 * words + group.len() + agent]) / 254.0 * core::f64::consts::PI } else { core::f64::consts::FRAC_PI_2 };
+            let polar = if axes == 3 {
+                f64::from(frame[2 * words + group.len() + agent]) / 254.0 * core::f64::consts::PI
+            } else {
+                core::f64::consts::FRAC_PI_2
+            };
             let across = polar.sin();
             let up = if axes == 3 { polar.cos() } else { 0.0 };
             [(across * angle.cos()) as f32, (across * angle.sin()) as f32, up as f32]
@@ -264,11 +276,15 @@ mod tests {
         // long ones are squeezed
         for (dimensions, frames, agents) in [(1, 4, 3), (2, 6, 5), (3, 5, 4), (2, 3000, 220), (3, 2000, 200)] {
             let replay = recording(dimensions, frames, agents);
-            let page = Page { title: "A & <B> 'c'".into(), figures: vec![Figure::Replay(replay.clone())], ..Page::default() };
+            let page =
+                Page { title: "A & <B> 'c'".into(), figures: vec![Figure::Replay(replay.clone())], ..Page::default() };
             let found = replays(&html(&page)).unwrap();
             let (title, back) = &found[0];
             assert_eq!((title.as_str(), found.len()), ("A & <B> 'c'", 1));
-            assert_eq!((&back.stage, &back.times, &back.group, &back.obstacles), (&replay.stage, &replay.times, &replay.group, &replay.obstacles));
+            assert_eq!(
+                (&back.stage, &back.times, &back.group, &back.obstacles),
+                (&replay.stage, &replay.times, &replay.group, &replay.obstacles)
+            );
             for (one, other) in back.position.iter().flatten().zip(replay.position.iter().flatten()) {
                 let near = |a: usize| one[a].is_nan() == other[a].is_nan() && !((one[a] - other[a]).abs() > 1e-3);
                 assert!((0..3).all(near), "{one:?} for {other:?}");

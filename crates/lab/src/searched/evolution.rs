@@ -133,7 +133,9 @@ impl Searched for Evolved {
     }
     fn telling(&self) -> Vec<At> {
         // the last generation of the run that came furthest, and beside it the first
-        let best = |run: &Run| run.generations.last().map(|one| one.evaluated.scores.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+        let best = |run: &Run| {
+            run.generations.last().map(|one| one.evaluated.scores.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+        };
         let scored = self.runs.iter().enumerate().filter_map(|(k, run)| Some((k, best(run)?)));
         let Some((run, _)) = scored.reduce(|best, other| if other.1 > best.1 { other } else { best }) else {
             return Vec::new();
@@ -141,7 +143,10 @@ impl Searched for Evolved {
         let last = self.runs[run].generations.len() - 1;
         let mut chosen = vec![last, 0];
         chosen.dedup();
-        chosen.into_iter().map(|generation| At::new(&[("run", run as f64), ("generation", generation as f64)])).collect()
+        chosen
+            .into_iter()
+            .map(|generation| At::new(&[("run", run as f64), ("generation", generation as f64)]))
+            .collect()
     }
     fn words(&self) -> Vec<String> {
         ["run", "generation", "candidate"].map(str::to_owned).to_vec()

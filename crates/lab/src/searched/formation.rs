@@ -13,8 +13,14 @@ use serde_json::{Value as Json, json};
 use std::path::Path;
 
 /// What is told of each trial, by the names of statements; the share of targets comes first.
-const READ: [(&str, &str); 6] =
-    [("fitness", "1"), ("time", "time"), ("path_length", "length"), ("dispersion", "length"), ("held", "1"), ("robots", "1")];
+const READ: [(&str, &str); 6] = [
+    ("fitness", "1"),
+    ("time", "time"),
+    ("path_length", "length"),
+    ("dispersion", "length"),
+    ("held", "1"),
+    ("robots", "1"),
+];
 /// Frames of a trial that is played.
 const FRAMES: u64 = 2000;
 
@@ -65,7 +71,10 @@ impl Searched for Formed {
             picture.strokes.extend(walls.map(|wall| (Stroke::Built, vec![wall.at.from.0, wall.at.to.0])));
             json!({ "name": plan.tasks[task].name, "drawing": drawing(&picture), "walls": self.walls[task].len(), "timed": plan.tasks[task].timed })
         };
-        let methods = plan.methods.iter().map(|method| json!({ "name": method.name, "about": method.form.about, "tasks": method.tasks }));
+        let methods = plan
+            .methods
+            .iter()
+            .map(|method| json!({ "name": method.name, "about": method.form.about, "tasks": method.tasks }));
         let cells = self.trials.iter().map(|(&(task, method), trials)| {
             let values = |(number, tried): &(usize, Tried)| {
                 let read = READ.iter().map(|(name, _)| reading(name).map_or(Json::Null, |of| rounded(of(tried))));
@@ -97,7 +106,8 @@ impl Searched for Formed {
             return Err(LiveError::Request(what));
         }
         let every = plan.methods[method].population.steps.div_ceil(FRAMES).max(1);
-        let replay = course::replay(plan, &self.walls[task], (task, method, number), every).map_err(LiveError::Request)?;
+        let replay =
+            course::replay(plan, &self.walls[task], (task, method, number), every).map_err(LiveError::Request)?;
         let own = &plan.methods[method];
         let about = if own.form.about.is_empty() { String::new() } else { format!("{}.\n\n", own.form.about) };
         Ok(Watched::Course(Box::new(Course {
@@ -115,8 +125,11 @@ impl Searched for Formed {
         report::page(&Results { plan: &self.plan, walls: self.walls.clone(), trials }, program)
     }
     fn telling(&self) -> Vec<At> {
-        let place = |(task, method): (usize, usize)| At::new(&[("task", task as f64), ("method", method as f64), ("trial", 1.0)]);
-        let shown: Vec<(usize, usize)> = self.plan.show.iter().copied().filter(|at| self.trials.contains_key(at)).collect();
+        let place = |(task, method): (usize, usize)| {
+            At::new(&[("task", task as f64), ("method", method as f64), ("trial", 1.0)])
+        };
+        let shown: Vec<(usize, usize)> =
+            self.plan.show.iter().copied().filter(|at| self.trials.contains_key(at)).collect();
         // where the file names none, the first task with each method
         let first = || self.trials.keys().copied().filter(|&(task, _)| task == 0).collect();
         let chosen: Vec<(usize, usize)> = if shown.is_empty() { first() } else { shown };

@@ -146,12 +146,14 @@ impl Searched for Mapped {
                 low.iter().zip(&high).map(|(low, high)| high - low).product::<f64>()
             };
             let better = |(leaf, found): &(&search::refine::Leaf, CellResult)| (found.rate(), size(leaf));
-            let (leaf, _) = panel.leaves().filter(|(_, found)| found.trials > 0).reduce(|best, other| {
-                if better(&other) > better(&best) { other } else { best }
-            })?;
+            let (leaf, _) = panel
+                .leaves()
+                .filter(|(_, found)| found.trials > 0)
+                .reduce(|best, other| if better(&other) > better(&best) { other } else { best })?;
             let (low, high) = panel.map.bounds(&leaf.cell);
             let names: Vec<String> = (0..low.len()).map(|axis| format!("x{axis}")).collect();
-            let middle = names.iter().zip(low.iter().zip(&high)).map(|(name, (low, high))| (name.as_str(), (low + high) / 2.0));
+            let middle =
+                names.iter().zip(low.iter().zip(&high)).map(|(name, (low, high))| (name.as_str(), (low + high) / 2.0));
             Some(At::new(&[("panel", number as f64), ("trial", 1.0)].into_iter().chain(middle).collect::<Vec<_>>()))
         };
         self.panels.iter().enumerate().filter_map(best).collect()

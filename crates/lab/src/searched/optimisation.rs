@@ -65,7 +65,13 @@ impl Optimised {
         let called = format!("{}, run {}", plan.methods()[method], number + 1);
         let (name, point, found, score, trial) = if at.perhaps("elite").is_some() {
             let elite = &run.elites[at.below("elite", run.elites.len())?];
-            (format!("{called}, kind {}", elite.cell), &elite.point, None, elite.score, (Purpose::Report, number as u64))
+            (
+                format!("{called}, kind {}", elite.cell),
+                &elite.point,
+                None,
+                elite.score,
+                (Purpose::Report, number as u64),
+            )
         } else if at.perhaps("evaluation").is_some() {
             let place = at.below("evaluation", run.evaluations.len())?;
             let (point, found) = &run.evaluations[place];
@@ -78,7 +84,8 @@ impl Optimised {
             (name, &run.evaluations[place].0, Some(found), found.score, (Purpose::Report, number as u64))
         };
         let construct = plan.construct(point);
-        let construct = construct.map_err(|error| LiveError::Request(format!("there is no construct there: {error}")))?;
+        let construct =
+            construct.map_err(|error| LiveError::Request(format!("there is no construct there: {error}")))?;
         Ok(Candidate { name, construct, point: point.clone(), found, score, trial })
     }
     fn told(&self, one: &Candidate) -> Json {
@@ -110,7 +117,8 @@ impl Optimised {
         };
         let rows = if kinds.len() == 2 { PLACES } else { 1 };
         let cell = |(row, column): (usize, usize)| {
-            let kind: Vec<f64> = (0..kinds.len()).map(|axis| place(axis, if axis == 0 { column } else { row })).collect();
+            let kind: Vec<f64> =
+                (0..kinds.len()).map(|axis| place(axis, if axis == 0 { column } else { row })).collect();
             searcher.cell_of(&kind)
         };
         let all = (0..rows).flat_map(|row| (0..PLACES).map(move |column| (row, column)));
@@ -121,9 +129,7 @@ impl Optimised {
 impl Searched for Optimised {
     fn overview(&self) -> Json {
         let Looked { plan, runs, control, lighter } = &self.0;
-        let axis = |axis: &crate::optimisation::plan::SearchAxis| {
-            json!({ "name": axis.name, "unit": axis.unit, "low": axis.axis.low, "high": axis.axis.high })
-        };
+        let axis = |axis: &crate::optimisation::plan::SearchAxis| json!({ "name": axis.name, "unit": axis.unit, "low": axis.axis.low, "high": axis.axis.high });
         let method = |(name, search): &(String, Search)| {
             let Search::MapElites(archive) = search else { return json!({ "name": name }) };
             let kinds = archive.kind.0.iter().map(|(kind, ends)| {

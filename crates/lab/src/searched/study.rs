@@ -6,9 +6,9 @@ use crate::file::{Node, Tree};
 use crate::live::LiveError;
 use crate::report::Page;
 use crate::store::StoreError;
-use crate::study::{Plan, report};
 use crate::study::execute::{self, Results};
 use crate::study::tables::of_cell;
+use crate::study::{Plan, report};
 use serde_json::{Value as Json, json};
 use std::path::Path;
 

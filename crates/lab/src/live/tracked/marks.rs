@@ -60,8 +60,14 @@ pub(super) fn called(names: &[String], individual: usize) -> String {
 }
 
 /// What the table of events tells of a recording. The same of one individual in frames that follow each other is one mark.
-pub(super) fn told(table: &Table, recording: usize, numbers: &[i64], names: &[String]) -> Result<Vec<Mark>, StoreError> {
-    let wanted = ["run", "frame", "event", "id"].map(|name| column(table, name)).into_iter().collect::<Result<Vec<_>, _>>()?;
+pub(super) fn told(
+    table: &Table,
+    recording: usize,
+    numbers: &[i64],
+    names: &[String],
+) -> Result<Vec<Mark>, StoreError> {
+    let wanted =
+        ["run", "frame", "event", "id"].map(|name| column(table, name)).into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut found: Vec<(String, i64, usize, usize)> = Vec::new();
     for group in 0..table.groups() {
         let read = table.read(group, &wanted)?;
@@ -110,7 +116,8 @@ mod tests {
         }
         let names = ["a".to_owned(), "4".to_owned()];
         let marks = gaps.marks(&names);
-        let told: Vec<(&str, usize, usize)> = marks.iter().map(|mark| (mark.what.as_str(), mark.from, mark.to)).collect();
+        let told: Vec<(&str, usize, usize)> =
+            marks.iter().map(|mark| (mark.what.as_str(), mark.from, mark.to)).collect();
         // who is not there yet, or no longer, is not missing
         assert_eq!(told, [("a is missing for 3 frames", 2, 4), ("individual 4 is missing for 1 frame", 4, 4)]);
         let listed = listed(marks, &[0.0, 0.1, 0.2, 0.3, 0.4, 0.5]);

@@ -83,9 +83,7 @@ impl Tracked {
         all["own"] = over.lines.into();
         let name = about.get("name").and_then(Json::as_str).unwrap_or_default().to_owned();
         let groups: Vec<Json> = if agents <= NAMED {
-            let one = |(k, name): (usize, &String)| {
-                json!({ "name": name, "model": "", "title": "", "first": k, "count": 1, "radius": 0.0 })
-            };
+            let one = |(k, name): (usize, &String)| json!({ "name": name, "model": "", "title": "", "first": k, "count": 1, "radius": 0.0 });
             names.iter().enumerate().map(one).collect()
         } else {
             vec![json!({ "name": name, "model": "", "title": "recorded", "first": 0, "count": agents, "radius": 0.0 })]
@@ -313,16 +311,22 @@ impl Shown for Tracked {
         let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         let heading: Vec<f64> = velocity.iter().map(|v| if speed > 1e-12 { v / speed } else { 0.0 }).collect();
         let moves = row.is_some() && axis(1 + self.dimensions).is_finite();
-        let mut values = vec![json!({ "stage": "now", "name": "there", "value": if row.is_some() { "yes" } else { "missing in this frame" } })];
+        let mut values = vec![
+            json!({ "stage": "now", "name": "there", "value": if row.is_some() { "yes" } else { "missing in this frame" } }),
+        ];
         if row.is_some() {
             let places = AXES.iter().take(self.dimensions).zip(&position);
-            values.extend(places.map(|(axis, value)| json!({ "stage": "now", "name": axis, "value": value, "unit": length })));
+            values.extend(
+                places.map(|(axis, value)| json!({ "stage": "now", "name": axis, "value": value, "unit": length })),
+            );
         }
         if moves {
             values.push(json!({ "stage": "now", "name": "speed", "value": speed, "unit": format!("{length}/{time}") }));
         }
         let whole = self.each.get(name).into_iter().flatten();
-        values.extend(whole.map(|(name, value, unit)| json!({ "stage": "whole recording", "name": name, "value": value, "unit": unit })));
+        values.extend(whole.map(
+            |(name, value, unit)| json!({ "stage": "whole recording", "name": name, "value": value, "unit": unit }),
+        ));
         Ok(json!({
             "agent": agent, "recorded": true, "name": marks::called(&self.names, id), "group": self.name, "model": "",
             "step": step, "t": t, "position": position, "heading": heading, "radius": 0.0,

@@ -64,7 +64,9 @@ pub(super) fn read(table: &Table, recording: usize) -> Result<Found, StoreError>
 
 /// What is measured rather than told: numbers that are no time.
 fn numbers(card: &TrackCard) -> impl Iterator<Item = &'static Field> {
-    card.fields.iter().filter(|field| matches!(field.kind, Kind::Number | Kind::Count) && field.name != "t" && field.name != "rank")
+    card.fields
+        .iter()
+        .filter(|field| matches!(field.kind, Kind::Number | Kind::Count) && field.name != "t" && field.name != "rank")
 }
 
 fn titled(card: &TrackCard, field: &Field) -> String {
@@ -77,7 +79,9 @@ fn titled(card: &TrackCard, field: &Field) -> String {
 /// A chart for each number of a metric that is told frame by frame. Events are marks, and no lines.
 fn charts(card: &'static TrackCard, rows: &BTreeMap<i64, Row>, unit: &dyn Fn(&Field) -> String, found: &mut Found) {
     let is_event = card.id.ends_with("_events") || ["line_crossings", "collisions"].contains(&card.id);
-    if is_event || card.fields.iter().filter(|field| matches!(field.kind, Kind::Individual)).count() > 1 && !has(card, "rank") {
+    if is_event
+        || card.fields.iter().filter(|field| matches!(field.kind, Kind::Individual)).count() > 1 && !has(card, "rank")
+    {
         return;
     }
     let whose = card.fields.iter().find(|field| matches!(field.kind, Kind::Individual | Kind::Group | Kind::Label(_)));
@@ -102,7 +106,9 @@ fn charts(card: &'static TrackCard, rows: &BTreeMap<i64, Row>, unit: &dyn Fn(&Fi
             continue;
         }
         let id = format!("{}.{}", card.id, field.name);
-        found.charts.push(json!({ "id": id, "title": titled(card, field), "unit": unit(field), "range": Json::Null, "own": true }));
+        found.charts.push(
+            json!({ "id": id, "title": titled(card, field), "unit": unit(field), "range": Json::Null, "own": true }),
+        );
         let line = |(name, t, y): &(String, Vec<f64>, Vec<Option<f64>>)| {
             let every = t.len().div_ceil(MEASURED).max(1);
             json!({
@@ -120,8 +126,14 @@ fn has(card: &TrackCard, name: &str) -> bool {
 }
 
 /// What a metric with a row for each individual found of each.
-fn individuals(card: &'static TrackCard, rows: &BTreeMap<i64, Row>, unit: &dyn Fn(&Field) -> String, found: &mut Found) {
-    let others = card.fields.iter().filter(|field| matches!(field.kind, Kind::Individual | Kind::Group | Kind::Label(_)));
+fn individuals(
+    card: &'static TrackCard,
+    rows: &BTreeMap<i64, Row>,
+    unit: &dyn Fn(&Field) -> String,
+    found: &mut Found,
+) {
+    let others =
+        card.fields.iter().filter(|field| matches!(field.kind, Kind::Individual | Kind::Group | Kind::Label(_)));
     if others.count() > 1 {
         return;
     }
