@@ -82,7 +82,7 @@ async function study() {
     const first = await loads(page, address, () => document.querySelectorAll(".multiple[data-cell]").length > 0 && document.querySelector("#searched .state").textContent === "");
     const cells = await page.locator(".multiple[data-cell]").count();
     const overview = await (await page.request.get(`${address}search/0`)).json();
-    return { part: "study", cells: overview.levels.length, trials: overview.trials, readings: overview.readings.length, cells_of_the_first_part: cells, opens_ms: first, folder_mb: rounded(statSync(`${folder}/results.log`).size / 1e6) };
+    return { part: "study", cells: overview.levels.length, trials: overview.trials, readings: overview.readings.length, cells_of_the_first_part: cells, opens_ms: first, folder_mb: rounded(statSync(`${folder}/trials.log`).size / 1e6) };
   });
 }
 

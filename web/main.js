@@ -18,6 +18,8 @@ const at = { title: one("h1"), state: one("#state"), notice: one("#notice"), los
 
 // the first pane is the one that panel, charts and time speak of; `active` is the one whose agent is explained
 let panes = [], active = null, given = null, clock = null, isAsking = false, drawsNext = false, program = "flockworks";
+// what is said of something that is being opened, once it stands there
+let toTell = "";
 const lead = () => panes[0] ?? null;
 const scene = () => lead()?.scene ?? null;
 const isRun = () => scene()?.isRun === true;
@@ -90,7 +92,8 @@ const told = {
   state: (pane, state, seconds) => { pane.link = { state, seconds }; showConnection(); },
   problem: (pane, text) => { notice(text); if (!pane.scene) pane.show("This could not be opened."); },
   scene: (pane, isSame) => {
-    notice("");
+    notice(toTell);
+    toTell = "";
     pane.drawing && (pane.drawing.withTrails = at.trails.checked);
     if (pane !== lead()) { clock?.add(pane); showTitle(); return; }
     showScene(pane.scene, isSame);
@@ -457,9 +460,9 @@ function follow() {
 /** Opens what the server took: its answer to files that were handed over. */
 function openGiven({ given: number, all: list, told = "" }) {
   given = list;
+  toTell = told;
   const to = `#given=${number}`;
   if (location.hash === to) follow(); else location.hash = to;
-  if (told) notice(told);
 }
 
 /** Hands a file over to the server, and opens it. */

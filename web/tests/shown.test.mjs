@@ -218,6 +218,7 @@ describe("searches", () => {
     const told = rows.filter((row) => row[names.indexOf("method")] === "uniform").map((row) => [Math.round(Number(row[names.indexOf("rate")]) * Number(row[names.indexOf("trials")])), Number(row[names.indexOf("trials")])]);
     assert.ok(told.some(([successes, trials]) => successes === shown[0] && trials === shown[1]), `${shown} is not among ${told}`);
     await copies(page);
+    await page.locator(".rolls").evaluate((list) => { list.scrollTop = 0; });
     await page.screenshot({ path: `${pictures}/view-optimisation.png` });
     await page.locator(".watch").click();
     await playing(page);
@@ -244,7 +245,11 @@ describe("searches", () => {
     // it is scrubbed through, to its end and back
     await page.locator("[data-do=last]").click();
     await page.waitForFunction(() => Number(document.querySelector(".time").dataset.step) === Number(document.querySelector(".scrub").max));
+    await page.locator(".scrub").evaluate((input) => { input.value = "150"; input.dispatchEvent(new Event("input", { bubbles: true })); });
+    await page.waitForFunction(() => document.querySelector(".time").dataset.step === "150");
     await page.screenshot({ path: `${pictures}/view-formation-trial.png` });
+    await page.locator("[data-do=last]").click();
+    await page.waitForFunction(() => Number(document.querySelector(".time").dataset.step) === Number(document.querySelector(".scrub").max));
     // the time at which it ended is the one in the table
     run("export", `${scratch}/formation`, "--to", "csv");
     const [names, ...rows] = readFileSync(`${scratch}/formation/trials.csv`, "utf8").trim().split("\n").map((line) => line.split(","));

@@ -129,7 +129,10 @@ impl Optimised {
 impl Searched for Optimised {
     fn overview(&self) -> Json {
         let Looked { plan, runs, control, lighter } = &self.0;
-        let axis = |axis: &crate::optimisation::plan::SearchAxis| json!({ "name": axis.name, "unit": axis.unit, "low": axis.axis.low, "high": axis.axis.high });
+        let axis = |axis: &crate::optimisation::plan::SearchAxis| {
+            let unit = axis.unit.replace("length", &plan.population.scenario.units.length);
+            json!({ "name": axis.name, "unit": unit, "low": axis.axis.low, "high": axis.axis.high })
+        };
         let method = |(name, search): &(String, Search)| {
             let Search::MapElites(archive) = search else { return json!({ "name": name }) };
             let kinds = archive.kind.0.iter().map(|(kind, ends)| {

@@ -101,7 +101,8 @@ fn charts(card: &'static TrackCard, rows: &BTreeMap<i64, Row>, unit: &dyn Fn(&Fi
             lines[place].1.push(*t);
             lines[place].2.push(Some(*value).filter(|value| value.is_finite()));
         }
-        lines.retain(|line| line.2.iter().any(Option::is_some));
+        // one moment is no line
+        lines.retain(|line| line.2.iter().flatten().count() > 1);
         if lines.is_empty() || lines.len() > LINES {
             continue;
         }
