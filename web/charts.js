@@ -53,6 +53,7 @@ export class Charts {
         const figure = element("figure", { tabIndex: 0, title: scene.isRun ? "Click or press Enter: go to this time. Arrow keys: read out." : "Arrow keys: read out." },
           element("figcaption", {}, element("span", { className: "title", textContent: titled(metric.title, metric.unit) }), value, copy), canvas);
         figure.dataset.metric = metric.id;
+        figure.classList.toggle("own", metric.own);
         canvas.addEventListener("pointermove", (event) => this.point(this.timeAt(canvas, event)));
         canvas.addEventListener("pointerleave", () => this.point(null));
         canvas.addEventListener("click", (event) => { if (this.canSeek) this.seek(this.timeAt(canvas, event)); });
@@ -85,9 +86,11 @@ export class Charts {
   }
 
   /** Takes all that was measured in a run. */
-  takeAll(index, { t, groups }) {
+  takeAll(index, { t, groups, own }) {
     const pane = this.pane(index);
     if (!Array.isArray(t) || !Array.isArray(groups)) return;
+    // lines with times of their own
+    pane.own = new Map((Array.isArray(own) ? own : []).map(({ id, lines }) => [id, lines]));
     pane.t = t;
     pane.lines = new Map(groups.map((group) => [group.group ?? "", this.metrics.map((_, metric) => group.values?.[metric] ?? [])]));
     this.request();
@@ -137,7 +140,10 @@ export class Charts {
 
   repaint() { this.request(); }
 
-  linesOf(index) { return (this.panes ?? []).flatMap((pane, number) => [...(pane?.lines ?? [])].map(([name, all]) => ({ name, number, t: pane.t, y: all[index] ?? [] }))); }
+  linesOf(index) {
+    if (this.metrics[index].own) return (this.panes ?? []).flatMap((pane, number) => (pane?.own?.get(this.metrics[index].id) ?? []).map(({ name, t, y }) => ({ name, number, t, y })));
+    return (this.panes ?? []).flatMap((pane, number) => [...(pane?.lines ?? [])].map(([name, all]) => ({ name, number, t: pane.t, y: all[index] ?? [] })));
+  }
 
   /** Copies a chart as SVG with its data; where the browser does not allow that, saves it. */
   async copy(index, button) {
@@ -205,6 +211,12 @@ export class Charts {
     });
     for (const event of this.events) {
       if (event.t < from || event.t > to) continue;
+      if (event.kind === "gap" || event.kind === "flag") {
+        // what lasts is a bar at the upper edge: not every gap may cross the whole chart
+        pen.fillStyle = css(event.kind === "flag" ? "acts" : "faint");
+        pen.fillRect(x(event.t) - 0.5, TOP - 4, Math.max(2, x(Math.min(event.untilT, to)) - x(event.t)), 3);
+        continue;
+      }
       vertical(event.t, css("faint"), [2, 3]);
       pen.fillStyle = css("text");
       pen.beginPath();
@@ -230,7 +242,9 @@ export class Charts {
     pen.setLineDash([]);
     const shown = this.cursor ?? this.now;
     if (shown !== null && shown >= from && shown <= to) vertical(shown, this.cursor === null ? css("accent") : css("text"));
-    const texts = lines.filter(({ t }) => t.length > 0).map((line) => {
+    // of many lines the numbers would fill the page: they are read off one by one
+    const told = lines.length > 6 ? [] : lines;
+    const texts = told.filter(({ t }) => t.length > 0).map((line) => {
       const at = nearest(line.t, shown ?? line.t.at(-1));
       const v = line.y[at];
       if (v !== null && v !== undefined && Number.isFinite(v) && shown !== null) {
@@ -241,10 +255,10 @@ export class Charts {
       }
       // the unit stands once, at the end
       const whose = `${line.number > 0 ? `run ${line.number + 1}: ` : ""}${line.name}`;
-      return (lines.length > 1 && whose ? `${whose} ` : "") + (line === lines.at(-1) ? withUnit(v ?? null, metric.unit, 3) : written(v ?? null, 3));
+      return (lines.length > 1 && whose ? `${whose} ` : "") + (line === told.at(-1) ? withUnit(v ?? null, metric.unit, 3) : written(v ?? null, 3));
     });
     const time = this.cursor === null ? "" : `t = ${withUnit(this.cursor, this.unit, 4)}: `;
-    value.textContent = time + texts.join(" · ");
+    value.textContent = time + (lines.length > 6 ? `${lines.length} lines` : texts.join(" · "));
     canvas.setAttribute("aria-label", `${metric.title}: ${value.textContent || "nothing measured yet"}`);
   }
 }

@@ -2,7 +2,8 @@
 
 import { boundsOfDrawing, css, drawDrawing, joined, penOf } from "./paper.js";
 import { choice, table } from "./searched.js";
-import { clamp, element, one } from "./words.js";
+import { copyButton, rowsOfDrawing } from "./vector.js";
+import { clamp, element } from "./words.js";
 
 // drawings are asked for in blocks; only those that can be seen are on the page
 const TILE = 132, CAPTION = 24, GAP = 8, BLOCK = 60, BEYOND = 2;
@@ -155,7 +156,8 @@ export class DesignView {
       tell();
       derivation.append(element("label", {}, "Derivation ", slider), said);
     }
-    this.detail.replaceChildren(element("h2", { textContent: `Candidate ${attempt}` }), this.large, derivation, element("div", { className: "options" }, ...watch),
+    this.detail.replaceChildren(element("h2", { textContent: `Candidate ${attempt}` }), this.large, derivation, element("div", { className: "options" }, ...watch,
+      copyButton(`Candidate ${attempt}`, () => { const drawing = this.drawingNow; return drawing && { wide: 320, tall: 320, rows: rowsOfDrawing(drawing), draw: (pen, named) => drawDrawing(pen, drawing, boundsOfDrawing(drawing), 320, 320, named) }; })),
       table("Trials that succeeded", ["", ...overview.populations.map(({ name }) => name)], rows));
     this.drawLarge();
   }
@@ -163,6 +165,7 @@ export class DesignView {
   drawLarge() {
     if (this.chosen === null || !this.large?.isConnected) return;
     const last = this.steps?.at(-1), drawing = this.steps && this.step < this.steps.length - 1 ? this.steps[this.step] : this.drawings.get(this.chosen);
+    this.drawingNow = drawing;
     if (!drawing) { this.ask(this.chosen); return; }
     const wide = this.large.clientWidth || 320, whole = last ? joined(boundsOfDrawing(last), boundsOfDrawing(this.steps[0])) : null;
     drawDrawing(penOf(this.large, wide, wide), drawing, joined(joined(this.overview.bounds, whole), boundsOfDrawing(drawing)), wide, wide);

@@ -50,7 +50,7 @@ export class Draw {
     try {
       const sketch = await answer("sketch", { method: "POST", body: `${name.replaceAll("\n", " ")}\n${text}` });
       this.sketch = { ...sketch, items: sketch.items };
-      Object.assign(this, { past: [], future: [], pending: [], selected: null, group: 0 });
+      Object.assign(this, { past: [], future: [], pending: [], selected: null, group: 0, drag: null });
       this.fit();
     } catch (error) {
       this.tools.notice(`${name || "A new drawing"} cannot be opened. ${error.message}`);
@@ -157,7 +157,8 @@ export class Draw {
     if (from.length === 0) return;
     to.push(JSON.stringify(this.items));
     this.sketch.items = JSON.parse(from.pop());
-    Object.assign(this, { selected: null, pending: [] });
+    // what is dragged is no longer there
+    Object.assign(this, { selected: null, pending: [], drag: null });
     this.paint();
   }
 
@@ -178,6 +179,8 @@ export class Draw {
     const isOpen = tool.points === 0 || form === "polygon";
     const first = this.pending[0], isBack = isOpen && this.pending.length > 2 && (isSame || Math.hypot(first[0] - place[0], first[1] - place[1]) < 1e-9);
     if (isSame && !isBack) return;
+    const isFlat = (this.tool === "box" || (tool.forms && form === "box")) && last && (last[0] === place[0] || last[1] === place[1]);
+    if (isFlat) { this.tools.notice("A box needs a width and a height."); return; }
     if (!isBack) this.pending.push(place);
     if (isOpen ? isBack : this.pending.length === tool.points) {
       const points = this.pending;
@@ -194,7 +197,7 @@ export class Draw {
     } else this.paint();
   }
 
-  remove(index) { if (this.items[index]) this.change(() => { this.items.splice(index, 1); this.selected = null; }); }
+  remove(index) { this.drag = null; if (this.items[index]) this.change(() => { this.items.splice(index, 1); this.selected = null; }); }
   move(index, [x, y]) { for (const point of this.items[index].points) [point[0], point[1]] = [neat(point[0] + x), neat(point[1] + y)]; }
 
   async saved(target) {
@@ -257,7 +260,11 @@ export class Draw {
       if (drag?.draws && Math.hypot(...at(event).map((value, axis) => value - drag.from[axis])) > NEAR) this.set(this.snapped(this.toWorld(at(event))));
     };
     stage.addEventListener("pointerup", up);
-    stage.addEventListener("pointercancel", () => { this.drag = null; });
+    stage.addEventListener("pointercancel", () => {
+      if (this.drag?.before) this.sketch.items = JSON.parse(this.drag.before);
+      this.drag = null;
+      this.paint();
+    });
     stage.addEventListener("contextmenu", (event) => event.preventDefault());
     stage.addEventListener("wheel", (event) => {
       event.preventDefault();
@@ -286,7 +293,7 @@ export class Draw {
     const onStage = event.target === this.stage;
     const digit = /^[0-9]$/.test(event.key) ? TOOLS[(Number(event.key) + 9) % 10] : null;
     const act = by && onStage ? () => this.nudge(by, event.shiftKey)
-      : event.key === "Enter" && onStage ? () => this.set([...this.cursor])
+      : event.key === "Enter" && onStage ? () => { this.cursor = this.snapped(this.cursor); this.set([...this.cursor]); }
         : event.key === "Escape" ? () => { this.pending = []; this.selected = null; this.paint(); }
           : ["Delete", "Backspace"].includes(event.key) && this.selected !== null ? () => this.remove(this.selected)
             : ["+", "="].includes(event.key) ? () => this.zoom(1.2, this.seen.middle) : event.key === "-" ? () => this.zoom(1 / 1.2, this.seen.middle)

@@ -2,16 +2,21 @@
 
 import { css, endsOf, frame, line, penOf } from "./paper.js";
 import { choice, table } from "./searched.js";
+import { copyButton } from "./vector.js";
 import { clamp, element, titled, written } from "./words.js";
 
-const SHOWN = 12, WIDE = 100, LEFT = 46, RIGHT = 8, TOP = 6, BOTTOM = 22;
+const SHOWN = 12, WIDE = 100, TALL = 190, LOW = 120, LEFT = 46, RIGHT = 8, TOP = 6, BOTTOM = 22;
 
 export class EvolutionView {
   constructor(overview, tools) {
     Object.assign(this, { overview, tools, run: 0, generation: null, genes: new Map() });
     this.choices = element("div", { className: "options" });
-    this.fitness = this.chart("Fitness", "fitness of the best candidate (line) and mean (dashed)");
-    this.charts = overview.genes.map((gene) => ({ ...this.chart(titled(gene.name, gene.unit), gene.about || gene.name), gene }));
+    const rowsOfFitness = () => [["run", "generation", "best", "mean", "worst"], ...overview.runs.flatMap(({ name, spread }) => spread.map((values, generation) => [name, generation, ...values]))];
+    this.fitness = this.chart("Fitness", "fitness of the best candidate (line) and mean (dashed)", (pen, wide, tall, named) => this.paintFitness(pen, wide, tall, named), TALL, rowsOfFitness);
+    this.charts = overview.genes.map((gene, column) => {
+      const rows = () => [["generation", "candidate", gene.name], ...(this.genes.get(this.run) ?? []).flatMap(({ generation, candidates }) => candidates.map((values, candidate) => [generation, candidate, values[1 + column]]))];
+      return { ...this.chart(titled(gene.name, gene.unit), gene.about || gene.name, (pen, wide, tall, named) => this.paintGene(pen, wide, tall, gene, named), LOW, rows), gene };
+    });
     this.detail = element("section", { className: "detail", "aria-live": "polite" });
     this.box = element("div", { className: "searching" }, element("div", { className: "main" }, this.choices, this.fitness.figure,
       element("div", { className: "alleles" }, ...this.charts.map(({ figure }) => figure))), this.detail);
@@ -20,10 +25,10 @@ export class EvolutionView {
 
   get generations() { return this.overview.runs[this.run]?.spread ?? []; }
 
-  chart(title, about) {
+  chart(title, about, paint, tall, rows) {
     const canvas = element("canvas", { tabIndex: 0, role: "img" });
     canvas.setAttribute("aria-label", `${title} over generations. Arrow keys choose a generation`);
-    const figure = element("figure", {}, element("figcaption", { textContent: title, title: about }), canvas);
+    const figure = element("figure", {}, element("figcaption", { title: about }, `${title} `, copyButton(title, () => ({ wide: 640, tall, rows: rows(), draw: (pen, named) => paint(pen, 640, tall, named) }))), canvas);
     canvas.addEventListener("pointerdown", (event) => { const { left } = canvas.getBoundingClientRect(); this.choose(this.scale?.value(event.clientX - left) ?? 0); });
     canvas.addEventListener("keydown", (event) => {
       const last = this.generations.length - 1, now = this.generation ?? last;
@@ -67,11 +72,16 @@ export class EvolutionView {
   repaint() {
     const wide = this.fitness.canvas.clientWidth;
     if (wide === 0) return;
-    const named = css(), last = Math.max(1, ...this.overview.runs.map(({ spread }) => spread.length - 1));
-    const tall = 190, pen = penOf(this.fitness.canvas, wide, tall);
+    const named = css();
+    this.scale = this.paintFitness(penOf(this.fitness.canvas, wide, TALL), wide, TALL, named);
+    for (const { canvas, gene } of this.charts) if (canvas.clientWidth > 0) this.paintGene(penOf(canvas, canvas.clientWidth, LOW), canvas.clientWidth, LOW, gene, named);
+  }
+
+  get last() { return Math.max(1, ...this.overview.runs.map(({ spread }) => spread.length - 1)); }
+
+  paintFitness(pen, wide, tall, named) {
     const all = this.overview.runs.flatMap(({ spread }) => spread.flatMap(([best, mean]) => [best, mean]));
-    const at = frame(pen, [LEFT, TOP, wide - RIGHT, tall - BOTTOM], [0, last], endsOf(all), named);
-    this.scale = at;
+    const at = frame(pen, [LEFT, TOP, wide - RIGHT, tall - BOTTOM], [0, this.last], endsOf(all), named);
     this.overview.runs.forEach(({ spread }, index) => {
       const isShown = index === this.run;
       pen.strokeStyle = named(isShown ? "series-0" : "faint");
@@ -87,7 +97,7 @@ export class EvolutionView {
     pen.globalAlpha = 1;
     pen.setLineDash([]);
     this.mark(pen, at, tall, named);
-    for (const { canvas, gene } of this.charts) this.drawGene(canvas, gene, last, named);
+    return at;
   }
 
   mark(pen, at, tall, named) {
@@ -99,13 +109,11 @@ export class EvolutionView {
   }
 
   /** All alleles of a gene: a dot for each candidate, and a line through the means. */
-  drawGene(canvas, gene, last, named) {
-    const wide = canvas.clientWidth, tall = 120;
-    if (wide === 0) return;
-    const pen = penOf(canvas, wide, tall), column = 1 + this.overview.genes.indexOf(gene);
+  paintGene(pen, wide, tall, gene, named) {
+    const column = 1 + this.overview.genes.indexOf(gene);
     // what spans powers of ten is seen by its powers
     const isWide = gene.low > 0 && gene.high / gene.low >= WIDE, place = (value) => (isWide ? Math.log10(value) : value);
-    const at = frame(pen, [LEFT, TOP, wide - RIGHT, tall - BOTTOM], [0, last], [place(gene.low), place(gene.high)], named, (value) => (isWide ? 10 ** value : value));
+    const at = frame(pen, [LEFT, TOP, wide - RIGHT, tall - BOTTOM], [0, this.last], [place(gene.low), place(gene.high)], named, (value) => (isWide ? 10 ** value : value));
     const told = this.genes.get(this.run) ?? [];
     pen.fillStyle = named("series-2");
     pen.globalAlpha = 0.45;

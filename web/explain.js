@@ -36,6 +36,8 @@ export class Explanation {
     if (explanation === null) { this.tables.replaceChildren(); this.figure.replaceChildren(); return; }
     const { scene } = pane;
     const speed = `${scene.units.length}/${scene.units.time}`;
+    this.place.classList.toggle("recorded", explanation.recorded);
+    if (explanation.recorded) { this.showRecorded(explanation); return; }
     const facts = this.drawInset(explanation, pane, scene);
     const rangeOf = (set) => [
       set.high === null ? "" : `${written(set.low ?? 0, 4)} to ${withUnit(set.high, scene.units.length, 4)}`,
@@ -81,6 +83,20 @@ export class Explanation {
       table("Motion", ["", "velocity", "speed"], motions, "motions"),
       table("Behaviour", ["option", "", "probability"], choice, "choice"),
       table("Values by stage", ["stage", "quantity", "value"], values, "stages")].filter((part) => part !== null));
+  }
+
+  /** Of a recorded individual nobody knows why it moves: what it does, and what was measured of it. */
+  showRecorded({ name, agent, group, values }) {
+    this.figure.replaceChildren();
+    let before = null;
+    const rows = values.map((row) => {
+      const stage = row.stage === before ? "" : row.stage;
+      before = row.stage;
+      return element("tr", { className: stage ? "first" : "" }, element("th", { scope: "row", textContent: stage }), cell(row.name),
+        cell(typeof row.value === "number" ? withUnit(row.value, row.unit, 5) : String(row.value ?? "missing"), { className: "number" }));
+    });
+    this.tables.replaceChildren(element("p", { className: "who" }, element("strong", { textContent: name || `Individual ${agent}` }), ` of ${group}, recorded.`),
+      table("What was seen and measured", ["", "quantity", "value"], rows, "stages"));
   }
 
   /** The figure again, large enough to read whatever the scene's zoom is. */

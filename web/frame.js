@@ -53,9 +53,9 @@ export function boundsOfAgents({ positions, agents, dimensions }) {
   return [low.map((end) => end - room), high.map((end) => end + room)];
 }
 
-/** What is to be seen as a whole: the space where it ends, the agents where it does not. */
-export function boundsOf({ space, dimensions }, frame) {
-  const agents = frame ? boundsOfAgents(frame) : null;
+/** What is to be seen as a whole: the space where it ends, the agents where it does not; of what is known to its end, all of it. */
+export function boundsOf({ space, dimensions, of }, frame) {
+  const agents = frame && !of ? boundsOfAgents(frame) : null;
   const side = (ends, which) => [0, 1, 2].map((axis) => {
     if (axis >= dimensions) return 0;
     return (space.edges[axis] === "open" && agents ? agents[which][axis] : ends[axis]) ?? which;
@@ -99,7 +99,8 @@ export function readScene(message) {
   const space = message.space ?? {};
   const axes = [0, 1, 2].slice(0, dimensions);
   return {
-    isRun: message.kind === "run", title: text(message.title, "Untitled"), about: text(message.about),
+    isRun: message.kind === "run", of: text(message.of), recording: text(message.recording),
+    numbered: isNumber(message.numbered?.first) && isNumber(message.numbered?.by) ? { first: message.numbered.first, by: message.numbered.by } : null, title: text(message.title, "Untitled"), about: text(message.about),
     seed: number(message.seed), dimensions, groups,
     units: { length: text(message.units?.length), time: text(message.units?.time) },
     space: {
@@ -114,14 +115,17 @@ export function readScene(message) {
     everySteps: Math.max(1, number(message.every_steps, 1)),
     metrics: objects(message.metrics).map((metric) => ({
       id: text(metric.id), title: text(metric.title, text(metric.id)), unit: text(metric.unit),
-      range: list(metric.range).length === 2 && metric.range.every(isNumber) ? metric.range : null,
+      range: list(metric.range).length === 2 && metric.range.every(isNumber) ? metric.range : null, own: metric.own === true,
     })),
     controls: objects(message.controls).map(readControl).filter((control) => control !== null),
     events: objects(message.events).map(readEvent),
   };
 }
 
-export const readEvent = (event) => ({ step: number(event.step, 0), t: number(event.t, 0), what: text(event.what, "something") });
+export const readEvent = (event) => ({
+  step: number(event.step, 0), t: number(event.t, 0), what: text(event.what, "something"), kind: text(event.kind, "event"),
+  untilStep: number(event.until_step, number(event.step, 0)), untilT: number(event.until_t, number(event.t, 0)),
+});
 
 const member = (value) => ({ offset: perhapsVector(value.offset), id: number(value.id) });
 const members = (value) => objects(value).map(member).filter(({ offset }) => offset !== null);
@@ -130,7 +134,7 @@ export function readExplanation(value) {
   if (value === null || typeof value !== "object" || !isNumber(value.agent)) throw new Error("an explanation of nobody");
   const velocity = (part) => perhapsVector(part?.velocity);
   return {
-    agent: value.agent, group: text(value.group), model: text(value.model), step: number(value.step), t: number(value.t),
+    agent: value.agent, recorded: value.recorded === true, name: text(value.name), group: text(value.group), model: text(value.model), step: number(value.step), t: number(value.t),
     position: vector(value.position), velocity: velocity(value), heading: perhapsVector(value.heading) ?? [0, 0, 0],
     radius: number(value.radius, 0),
     sensing: {

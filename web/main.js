@@ -18,6 +18,8 @@ const at = { title: one("h1"), state: one("#state"), notice: one("#notice"), los
 
 // the first pane is the one that panel, charts and time speak of; `active` is the one whose agent is explained
 let panes = [], active = null, given = null, clock = null, isAsking = false, drawsNext = false, program = "flockworks";
+// what is said of something that is being opened, once it stands there
+let toTell = "";
 const lead = () => panes[0] ?? null;
 const scene = () => lead()?.scene ?? null;
 const isRun = () => scene()?.isRun === true;
@@ -90,7 +92,8 @@ const told = {
   state: (pane, state, seconds) => { pane.link = { state, seconds }; showConnection(); },
   problem: (pane, text) => { notice(text); if (!pane.scene) pane.show("This could not be opened."); },
   scene: (pane, isSame) => {
-    notice("");
+    notice(toTell);
+    toTell = "";
     pane.drawing && (pane.drawing.withTrails = at.trails.checked);
     if (pane !== lead()) { clock?.add(pane); showTitle(); return; }
     showScene(pane.scene, isSame);
@@ -131,7 +134,8 @@ const told = {
 // ------------------------------------------------ what is shown
 
 // frames count from 0, as on the command line
-const whereIs = (now, step) => (now.isRun ? `step ${step}, frame ${frameOf(step)} of ${now.frames - 1}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
+const whereIs = (now, step) => (now.of ? `frame ${frameOf(step)} of ${now.frames - 1}${now.numbered && now.numbered.first !== 0 ? `, number ${now.numbered.first + now.numbered.by * frameOf(step)}` : ""}`
+  : now.isRun ? `step ${step}, frame ${frameOf(step)} of ${now.frames - 1}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
 const frameOf = (step) => Math.round((step - scene().fromStep) / scene().everySteps);
 
 const showTitle = () => name([...new Set(panes.map((pane) => pane.scene?.title).filter(Boolean))].join(" and "));
@@ -145,6 +149,10 @@ function showScene(now, isSame) {
   panel.show(now.controls);
   one("#parameters").hidden = now.controls.length === 0;
   button("save").hidden = now.isRun;
+  one("#focal .hint").hidden = now.of !== "";
+  one("#focal .hint.recorded-hint").hidden = now.of !== "tracks";
+  one("#focal").hidden = now.of === "course";
+  showRecordings();
   at.scrub.max = Math.max(0, now.frames - 1);
   at.seed.value = now.seed ?? "";
   at.agent.max = Math.max(0, now.agents - 1);
@@ -152,13 +160,14 @@ function showScene(now, isSame) {
   one("ol", at.events).replaceChildren();
   now.events.forEach(showEvent);
   const duration = Math.max(1, (now.frames - 1) * now.everySteps);
-  one(".event-marks").replaceChildren(...now.events.map((event) => drawn("rect", { x: 1000 * (event.step - now.fromStep) / duration - 1, width: 3, height: 6 })));
+  one(".event-marks").replaceChildren(...now.events.map((event) => drawn("rect", { class: event.kind, x: 1000 * (event.step - now.fromStep) / duration - 1, width: Math.max(3, 1000 * (event.untilStep - event.step) / duration), height: 6 })));
   const sample = (style, path) => { const svg = drawn("svg", { class: `sample ${style}`, viewBox: "-6 -5 13 10", "aria-hidden": "true" }); svg.append(drawn("path", { d: path })); return svg; };
   const entries = (names, count) => names.map((name, index) => element("li", {}, sample(`s${index % 7}`, "M6 0L-5 4L-2.5 0L-5-4z"),
     element("span", {}, name, count ? element("span", { className: "count", textContent: ` ${count[index]}` }) : "")));
   const byLabel = at.colour.value === "label" && now.labels.length > 0;
   one("#about .legend").replaceChildren(...(byLabel ? entries(now.labels[0].names, null)
-    : entries(now.groups.map((group) => (group.title && group.title !== group.name ? `${group.name}: ${group.title}` : group.name)), now.groups.map(({ count }) => `${count} agents`))));
+    : entries(now.groups.map((group) => (group.title && group.title !== group.name ? `${group.name}: ${group.title}` : group.name)), now.of === "tracks" && now.groups.every(({ count }) => count === 1) ? null : now.groups.map(({ count }) => (count === 1 ? "1 agent" : `${count} agents`)))));
+  one("#about .legend").classList.toggle("long", now.groups.length > 8);
   one(".colouring").hidden = now.labels.length === 0;
   if (!isSame) at.colour.replaceChildren(element("option", { value: "group", textContent: "by group" }), ...now.labels.map(({ column }) => element("option", { value: "label", textContent: `by ${column}` })));
   at.speed.title = now.isRun ? "Frames per second" : "Steps per second that are wanted";
@@ -167,7 +176,21 @@ function showScene(now, isSame) {
 
 function showEvent(event) {
   at.events.hidden = false;
-  one("ol", at.events).append(element("li", {}, element("span", { className: "when", textContent: `t = ${withUnit(event.t, scene().units.time, 5)}` }), ` ${event.what}`));
+  const when = `t = ${withUnit(event.t, scene().units.time, 5)}`;
+  // in a recording one goes there
+  const shown = isRun() ? element("button", { type: "button", className: "quiet when", textContent: when, title: "Go there" }) : element("span", { className: "when", textContent: when });
+  if (isRun()) shown.addEventListener("click", () => seek(frameOf(event.step)));
+  one("ol", at.events).append(element("li", { className: event.kind }, shown, ` ${event.what}`));
+}
+
+/** A choice among the recordings of a folder. */
+function showRecordings() {
+  const place = one(".recordings"), own = given?.[lead()?.opened?.given], names = own?.recordings ?? [];
+  const shown = panes.map((pane) => pane.opened?.at?.recording ?? own?.recording ?? 0);
+  place.hidden = names.length < 2;
+  if (place.hidden) return;
+  const number = panes.length > 1 ? -1 : shown[0];
+  one("select", place).replaceChildren(...(given.length > 1 ? [element("option", { value: -1, textContent: "the first two, side by side", selected: number === -1 })] : []), ...names.map((name, index) => element("option", { value: index, textContent: name, selected: index === number })));
 }
 
 const LIVE_RATES = [1, 2, 5, 10, 20, 30, 60, 120, 250, 0], RUN_RATES = [1, 2, 5, 10, 20, 30, 60];
@@ -298,6 +321,7 @@ at.speed.addEventListener("change", () => {
   else toAll({ do: "speed", rate: isRun() && lead()?.status?.rate < 0 ? -rate : rate });
 });
 at.loop.addEventListener("change", () => { if (clock) clock.loop = at.loop.checked; else toAll({ do: "loop", on: at.loop.checked }); showStatus(); });
+one(".recordings select").addEventListener("change", (event) => { const number = Number(event.target.value); location.hash = number < 0 ? "" : new URLSearchParams({ given: 0, recording: number }); });
 at.seed.addEventListener("keydown", (event) => { if (event.key === "Enter") reset(); });
 at.agent.addEventListener("input", () => focus(Number.isInteger(at.agent.valueAsNumber) ? at.agent.valueAsNumber : null));
 at.camera.addEventListener("change", () => forEachPane((pane) => pane.setCamera(at.camera.value)));
@@ -372,7 +396,8 @@ function openPanes(openings) {
   panes = openings.map((what, index) => {
     const place = element("div", { className: "screen" });
     at.screens.append(place);
-    const name = openings.length > 1 ? `Run ${index + 1}${given?.[what.given]?.name ? `: ${given[what.given].name}` : ""}` : "Scene";
+    const own = given?.[what?.given], recorded = own?.recordings?.length > 1 ? own.recordings[own.recording ?? 0] : own?.name;
+    const name = openings.length > 1 ? `Run ${index + 1}${recorded ? `: ${recorded}` : ""}` : "Scene";
     if (openings.length > 1) place.append(element("p", { className: "name", textContent: name }));
     const pane = new Pane(place, told, name);
     pane.firstOpening = what;
@@ -432,12 +457,45 @@ function follow() {
 
 // ------------------------------------------------ files that are dropped on the page
 
+/** Opens what the server took: its answer to files that were handed over. */
+function openGiven({ given: number, all: list, told = "" }) {
+  given = list;
+  toTell = told;
+  const to = `#given=${number}`;
+  if (location.hash === to) follow(); else location.hash = to;
+}
+
 /** Hands a file over to the server, and opens it. */
 async function give(name, text) {
+  try { openGiven(await answer("given", { method: "POST", body: `${name.replaceAll("\n", " ")}\n${text}` })); }
+  catch (error) { notice(`${name} cannot be opened. ${error.message}`); }
+}
+
+const MOST_DROPPED = 512 * 1024 * 1024;
+
+/** All files of what was dropped, with their paths. */
+async function filesOf(entry, path = "") {
+  if (entry.isFile) return [{ path: path + entry.name, file: await new Promise((resolve, reject) => { entry.file(resolve, reject); }) }];
+  const reader = entry.createReader(), found = [];
+  for (;;) {
+    const some = await new Promise((resolve, reject) => { reader.readEntries(resolve, reject); });
+    if (some.length === 0) break;
+    for (const one of some) found.push(...await filesOf(one, `${path}${entry.name}/`));
+  }
+  return found;
+}
+
+/** Hands over files as they are: a line that says which, then one after the other. */
+async function giveFiles(files) {
+  const name = files[0].path.split("/")[0];
+  const size = files.reduce((sum, { file }) => sum + file.size, 0);
+  if (size > MOST_DROPPED) { notice(`${name} is larger than ${MOST_DROPPED >> 20} MB, which is too much to hand over; name it on the command line: flockworks view ${name}`); return; }
+  notice(`Opening ${name}…`);
   try {
-    const { given: number, all } = await answer("given", { method: "POST", body: `${name.replaceAll("\n", " ")}\n${text}` });
-    given = all;
-    location.hash = `given=${number}`;
+    const head = JSON.stringify(files.map(({ path, file }) => ({ path, size: file.size })));
+    const told = await answer("dropped", { method: "POST", body: new Blob([`${head}\n`, ...files.map(({ file }) => file)]) });
+    notice("");
+    openGiven(told);
   } catch (error) { notice(`${name} cannot be opened. ${error.message}`); }
 }
 
@@ -445,12 +503,23 @@ document.addEventListener("dragover", (event) => { if (event.dataTransfer?.types
 document.addEventListener("dragleave", (event) => { if (event.relatedTarget === null) delete root.dataset.drop; });
 document.addEventListener("drop", async (event) => {
   delete root.dataset.drop;
-  const file = event.dataTransfer?.files[0];
-  if (!file) return;
+  const entries = [...(event.dataTransfer?.items ?? [])].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
+  const files = [...(event.dataTransfer?.files ?? [])];
+  if (files.length === 0) return;
   event.preventDefault();
-  const text = await file.text();
-  // drawings are drawn on, all else is run; where one draws already, scenarios are too
-  if (/\.(svg|geojson|json|wkt)$/i.test(file.name) || !one("#drawing").hidden) { draw.take(file.name, text); location.hash = "draw"; } else give(file.name, text);
+  const [file] = files;
+  try {
+    if (entries.some((entry) => entry.isDirectory) || files.length > 1) {
+      const found = entries.length ? (await Promise.all(entries.map((entry) => filesOf(entry)))).flat() : files.map((one) => ({ path: one.name, file: one }));
+      if (found.length > 0) await giveFiles(found); else notice(`${file.name} is empty.`);
+      return;
+    }
+    // drawings are drawn on; where one draws already, scenarios are too
+    const isDrawing = /\.(svg|geojson|json|wkt)$/i.test(file.name) || (!one("#drawing").hidden && /\.toml$/i.test(file.name));
+    if (isDrawing) { draw.take(file.name, await file.text()); location.hash = "draw"; }
+    else if (/\.toml$/i.test(file.name)) await give(file.name, await file.text());
+    else await giveFiles([{ path: file.name, file }]);
+  } catch (error) { notice(`${file.name} cannot be read: ${error.message}.`); }
 });
 
 try { if (["light", "dark"].includes(localStorage.getItem(KEY))) root.dataset.theme = localStorage.getItem(KEY); } catch { /* the system's colours, then */ }

@@ -1,7 +1,8 @@
 // A map: its cells over two of its axes, and the environment and the group at the point that is chosen.
 
-import { css, drawDrawing, frame, line, penOf } from "./paper.js";
+import { boundsOfDrawing, css, drawDrawing, frame, line, penOf } from "./paper.js";
 import { choice, table } from "./searched.js";
+import { copyButton, rowsOfDrawing } from "./vector.js";
 import { clamp, element, titled, withUnit, written } from "./words.js";
 
 const LEFT = 50, RIGHT = 10, TOP = 8, BOTTOM = 38, STRIDE = 40;
@@ -23,8 +24,11 @@ export class MapView {
     const canvas = element("canvas", { tabIndex: 0, role: "img" });
     canvas.setAttribute("aria-label", `Map ${panel.name}. Arrow keys move the point, Enter shows what is there`);
     const control = panel.control[1] > 0 ? `; without a construct ${written(panel.control[0] / panel.control[1], 3)}` : "";
-    const figure = element("figure", {}, element("figcaption", { textContent: `${panel.name}${panel.about ? `: ${panel.about}` : ""}${control}` }), canvas);
-    const own = { panel, index, canvas, figure, at: null };
+    const own = { panel, index, canvas, at: null }, names = this.overview.axes.map(({ name }) => name);
+    const copy = copyButton(`Map ${panel.name}`, () => ({
+      wide: 640, tall: 460, rows: [[...names.map((name) => `${name} from`), ...names.map((name) => `${name} to`), "share of successes", "valid"], ...panel.cells], draw: (pen, named) => this.paint(pen, 640, 460, own, named),
+    }));
+    own.figure = element("figure", {}, element("figcaption", {}, `${panel.name}${panel.about ? `: ${panel.about}` : ""}${control} `, copy), canvas);
     canvas.addEventListener("click", (event) => {
       const box = canvas.getBoundingClientRect(), to = [own.at.value(event.clientX - box.left), own.at.height(event.clientY - box.top)];
       this.move(this.x, to[0]);
@@ -64,12 +68,14 @@ export class MapView {
   draw(own) {
     const wide = own.canvas.clientWidth;
     if (wide === 0) return;
-    const { axes } = this.overview, count = axes.length, named = css();
     const tall = this.y === null ? 120 : clamp(wide * 0.72, 220, 460);
     own.canvas.style.height = `${tall}px`;
-    const pen = penOf(own.canvas, wide, tall), y = this.y === null ? { name: "", unit: "", low: 0, high: 1 } : axes[this.y], x = axes[this.x];
+    own.at = this.paint(penOf(own.canvas, wide, tall), wide, tall, own, css());
+  }
+
+  paint(pen, wide, tall, own, named) {
+    const { axes } = this.overview, count = axes.length, y = this.y === null ? { name: "", unit: "", low: 0, high: 1 } : axes[this.y], x = axes[this.x];
     const at = frame(pen, [LEFT, TOP, wide - RIGHT, tall - BOTTOM], [x.low, x.high], [y.low, y.high], named);
-    own.at = at;
     const others = axes.map((_, axis) => axis).filter((axis) => axis !== this.x && axis !== this.y);
     // colour-blind safe: one hue, by how much of it there is; what is valid has a sign as well
     for (const cell of own.panel.cells) {
@@ -99,6 +105,7 @@ export class MapView {
     pen.beginPath();
     pen.arc(px, py, own.index === this.chosen ? 6 : 4, 0, 2 * Math.PI);
     pen.stroke();
+    return at;
   }
 
   get place() { return Object.fromEntries([["panel", this.chosen], ...this.point.map((value, axis) => [`x${axis}`, value])]); }
@@ -125,7 +132,9 @@ export class MapView {
     this.large.setAttribute("aria-label", "The environment at the point");
     const button = element("button", { type: "button", className: "watch", textContent: "Watch the group in it" });
     button.addEventListener("click", () => this.tools.watch({ ...this.place, trial: 1 }));
-    this.detail.replaceChildren(element("h2", { textContent: panels[this.chosen].name }), this.large, button, table("The point", [], rows),
+    const { drawing } = this.found;
+    const copy = copyButton("Environment", () => ({ wide: 320, tall: 320, rows: rowsOfDrawing(drawing), draw: (pen, named) => drawDrawing(pen, drawing, boundsOfDrawing(drawing), 320, 320, named) }));
+    this.detail.replaceChildren(element("h2", { textContent: panels[this.chosen].name }), this.large, element("div", { className: "options" }, button, copy), table("The point", [], rows),
       table("Its cell", [], [["trials that succeeded", `${successes} of ${trials}`], ["mean fitness", written(fitness, 4)]]));
     this.drawLarge();
   }

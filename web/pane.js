@@ -145,7 +145,7 @@ export class Pane {
     this.show(scene.agents === 0 ? "Nobody is in this scene." : "");
     if (!isSame) {
       this.focal = null;
-      this.camera = scene.space.edges.every((edge) => edge === "open") ? "flock" : "still";
+      this.camera = scene.of === "" && scene.space.edges.every((edge) => edge === "open") ? "flock" : "still";
     }
     if (this.focal !== null && this.focal >= scene.agents) this.focal = null;
     if (this.focal !== null) this.send({ do: "focus", agent: this.focal });
@@ -247,7 +247,7 @@ export class Pane {
       project: (place) => camera.project(place), wide: camera.wide, tall: camera.tall, isSpace: camera.isSpace, hatch: "hatch",
       radius: (scale) => clamp(this.drawing.halfLength(explanation?.radius ?? 0, scale), 3, 60), withBodies: false, headingOf: () => null,
     };
-    if (explanation) {
+    if (explanation && !explanation.recorded) {
       const range = explanation.sensing.range ?? Math.max(...explanation.sets.map((set) => set.high ?? 0), 0);
       view.withLabels = range * camera.scale >= LABELS_FROM;
       drawFigure(this.overlay, explanation, view, this.scene.units);

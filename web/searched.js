@@ -1,12 +1,14 @@
-// Searches: studies, evolutions, designs, maps. Each kind is one file and one line of this list.
+// Searches: studies, evolutions, designs, maps, optimisations, formations. Each kind is one file and one line of this list.
 
 import { DesignView } from "./design.js";
 import { EvolutionView } from "./evolution.js";
+import { FormationView } from "./formation.js";
 import { MapView } from "./map.js";
+import { OptimisationView } from "./optimisation.js";
 import { StudyView } from "./study.js";
 import { element, one, paragraphs } from "./words.js";
 
-const VIEWS = { study: StudyView, evolution: EvolutionView, design: DesignView, map: MapView };
+const VIEWS = { study: StudyView, evolution: EvolutionView, design: DesignView, map: MapView, optimisation: OptimisationView, formation: FormationView };
 
 /** What the server answers to a question of plain JSON. */
 export async function answer(address, options = {}) {

@@ -16,6 +16,7 @@ export function readShape(shape) {
     if (shape.ball && isNumber(shape.ball.radius)) return { ball: { centre: vector(shape.ball.centre), radius: shape.ball.radius } };
     if (shape.segment) return { segment: { from: vector(shape.segment.from), to: vector(shape.segment.to) } };
     if (Array.isArray(shape.polygon) && shape.polygon.length > 2) return { polygon: shape.polygon.map(vector) };
+    if (Array.isArray(shape.guide) && shape.guide.length > 1) return { guide: shape.guide.map(vector) };
     if (shape.box) return { box: { low: vector(shape.box.low), high: vector(shape.box.high) } };
   } catch { /* it is left out */ }
   return null;
@@ -63,7 +64,8 @@ export function solids(scene, { low, high }, obstacles, colours) {
   const quad = (a, b, c, d, normal, colour) => { triangle([a, b, c], [normal], colour); triangle([a, c, d], [normal], colour); };
   const corner = (bits) => [0, 1, 2].map((axis) => (bits >> axis & 1 ? high[axis] : low[axis]));
 
-  const hasEnds = scene.space.edges.some((edge) => edge !== "open");
+  // of what was recorded, the box that holds all of it is the floor
+  const hasEnds = scene.of === "tracks" || scene.space.edges.some((edge) => edge !== "open");
   if (scene.dimensions === 2 && hasEnds) quad(corner(0), corner(1), corner(3), corner(2), FLAT, colours.stage);
   if (isSpace) {
     const parts = 8;
@@ -141,6 +143,7 @@ export function solids(scene, { low, high }, obstacles, colours) {
     if (shape.segment) line(shape.segment.from, shape.segment.to, colours.text, 2.4);
     if (shape.polygon) polygon(shape.polygon);
     if (shape.box) box(shape.box);
+    if (shape.guide) shape.guide.slice(1).forEach((place, at) => line(shape.guide[at], place, colours.faint, 1.2, 4));
   }
   return { triangles: new Float32Array(triangles), lines: new Float32Array(lines) };
 }

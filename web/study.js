@@ -2,6 +2,7 @@
 
 import { css, endsOf, line, penOf } from "./paper.js";
 import { choice, table } from "./searched.js";
+import { copyButton } from "./vector.js";
 import { clamp, element, one, titled, withUnit, written } from "./words.js";
 
 const WIDE = 74, TALL = 40, BINS = 14;
@@ -26,7 +27,7 @@ export class StudyView {
   }
 
   appear() { this.show(); }
-  repaint() { for (const cell of this.cells ?? []) this.drawCell(cell); this.showDetail(); }
+  repaint() { this.drawCells(); this.showDetail(); }
 
   async show() {
     const { overview } = this, part = overview.parts[this.part], reading = overview.readings[this.reading];
@@ -57,7 +58,7 @@ export class StudyView {
       panels.get(key).push(cell);
     }
     this.grids.replaceChildren(this.legend, ...[...panels].map(([key, cells]) => this.grid(key, cells, part)));
-    for (const cell of this.cells) this.drawCell(cell);
+    this.drawCells();
     this.showDetail();
   }
 
@@ -66,7 +67,8 @@ export class StudyView {
     const [columns, rows] = [levels(this.across), levels(this.down)];
     const at = new Map(list.map((cell) => [`${this.across === null ? 0 : this.overview.levels[cell][this.across]} ${this.down === null ? 0 : this.overview.levels[cell][this.down]}`, cell]));
     const name = (factor, level) => (factor === null ? "" : part.factors[factor].levels[level]);
-    const grid = element("table", { className: "multiples" }, element("caption", { textContent: caption }));
+    const reading = this.overview.readings[this.reading].name;
+    const grid = element("table", { className: "multiples" }, element("caption", {}, `${caption} `, copyButton([reading, caption].filter(Boolean).join(", "), () => this.gridAsSvg(part, list, columns, rows))));
     grid.append(element("thead", {}, element("tr", {}, element("th", { textContent: this.down === null ? "" : part.factors[this.down].name }),
       ...columns.map((level) => element("th", { scope: "col", textContent: name(this.across, level) })))));
     const body = element("tbody");
@@ -76,7 +78,7 @@ export class StudyView {
     }))));
     grid.append(body);
     grid.addEventListener("keydown", (event) => this.key(event, grid));
-    const first = one("button", grid);
+    const first = one("button.multiple", grid);
     if (first) first.tabIndex = 0;
     return element("div", { className: "scroll" }, grid);
   }
@@ -100,8 +102,8 @@ export class StudyView {
     return button;
   }
 
-  drawCell({ canvas, there, mean }) {
-    const pen = penOf(canvas, WIDE, TALL), named = css(), [low, high] = this.ends;
+  paintCell(pen, { there, mean }, named) {
+    const [low, high] = this.ends;
     const bins = new Array(BINS).fill(0);
     for (const value of there) bins[clamp(Math.floor((value - low) / (high - low) * BINS), 0, BINS - 1)] += 1;
     const most = Math.max(1, ...bins);
@@ -115,6 +117,35 @@ export class StudyView {
     const x = 1 + (mean - low) / (high - low) * (WIDE - 2);
     line(pen, [[x, 0], [x, TALL]]);
     pen.stroke();
+  }
+
+  drawCells() { const named = css(); for (const cell of this.cells ?? []) this.paintCell(penOf(cell.canvas, WIDE, TALL), cell, named); }
+
+  /** The cells of a grid as one drawing: levels of the factors beside them, the trials as data. */
+  gridAsSvg(part, list, columns, rows) {
+    const { overview } = this, left = 120, top = 24, high = TALL + 8, of = (factor, level) => (factor === null ? "" : part.factors[factor].levels[level]);
+    const data = [[...part.factors.map(({ name }) => name), "trial", overview.readings[this.reading].name], ...list.flatMap((index) => {
+      const { trials, values } = this.values.get(this.reading)[index];
+      return values.map((value, at) => [...part.factors.map((factor, k) => factor.levels[overview.levels[index][k]]), trials?.[at] ?? at + 1, value]);
+    })];
+    const own = new Map(this.cells.filter(({ index }) => list.includes(index)).map((cell) => [`${this.across === null ? 0 : overview.levels[cell.index][this.across]} ${this.down === null ? 0 : overview.levels[cell.index][this.down]}`, cell]));
+    return { wide: left + columns.length * (WIDE + 6), tall: top + rows.length * high, rows: data, draw: (pen, named) => {
+      pen.font = "11px sans-serif";
+      columns.forEach((level, x) => { pen.fillStyle = named("text"); pen.textAlign = "center"; pen.fillText(of(this.across, level), left + x * (WIDE + 6) + WIDE / 2, 15); });
+      rows.forEach((row, y) => {
+        pen.fillStyle = named("text");
+        pen.textAlign = "left";
+        pen.fillText(of(this.down, row), 4, top + y * high + TALL / 2 + 4);
+        columns.forEach((column, x) => {
+          const cell = own.get(`${column} ${row}`);
+          if (!cell) return;
+          pen.save();
+          pen.translate(left + x * (WIDE + 6), top + y * high);
+          this.paintCell(pen, cell, named);
+          pen.restore();
+        });
+      });
+    } };
   }
 
   key(event, grid) {

@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { after, before, describe, test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
@@ -17,20 +17,45 @@ const OF_THE_BROWSER = /GPU stall due to ReadPixels/;
 // a program that is built already; left out, it is built
 const GIVEN = process.env.FLOCKWORKS_PROGRAM;
 
+/** Three recordings of two shipped tables; the second time the fish are looked at for impossible speeds. */
+const SEVERAL = `kind = "tracks"
+title = "Fish and people"
+[[recording]]
+file = "${root}studies/tracks/sticklebacks.csv"
+name = "shoal"
+fps = "unknown"
+units = "px"
+[[recording]]
+file = "${root}studies/tracks/corridor.txt"
+name = "corridor"
+[[recording]]
+file = "${root}studies/tracks/sticklebacks.csv"
+name = "in seconds"
+fps = 25
+units = "px"
+[clean]
+greatest_speed = 300
+[measure]
+parameters = { linking_distance = 80, x1 = 0, y1 = 0, x2 = 600, y2 = 600 }
+`;
+
 let browser, program;
 const run = (...words) => execFileSync(program, words, { cwd: root, stdio: ["ignore", "pipe", "pipe"] }).toString();
 
 before(async () => {
   mkdirSync(pictures, { recursive: true });
   program = GIVEN || built("flockworks");
-  writeFileSync(`${scratch}/map.toml`, readFileSync(`${root}studies/environments/fig-7.10.toml`, "utf8")
-    .replace("cells = 18", "cells = 6").replace("cells = 6\nscenario", "cells = 3\nscenario").replace("trials = 10", "trials = 2").replace('"junction.toml"', `"${root}studies/environments/junction.toml"`)
-    .split("[measure.at_1]")[0]);
-  writeFileSync(`${scratch}/design.toml`, readFileSync(`${root}studies/environments/table-7.2-corralling.toml`, "utf8").replace('"field.toml"', `"${root}studies/environments/field.toml"`).split("# as figure 7.7")[0]);
+  // the shipped files themselves, with fewer and shorter trials
   run("run", "studies/compositions/weights.toml", "--quick", "--trials", "1-3", "--out", `${scratch}/study`, "--set", "set.time.duration=80");
   run("run", "studies/evolution/flocks.toml", "--quick", "--set", "quick_generations=4", "--out", `${scratch}/evolution`);
-  run("run", `${scratch}/design.toml`, "--quick", "--set", "quick_attempts=24", "--set", "set.time.duration=50", "--out", `${scratch}/design`);
-  run("run", `${scratch}/map.toml`, "--out", `${scratch}/map`);
+  run("run", "studies/environments/table-7.2-corralling.toml", "--quick", "--set", "quick_attempts=24", "--set", "set.time.duration=50", "--set", "robustness.copies=1", "--set", "robustness.environments=1", "--out", `${scratch}/design`);
+  run("run", "studies/environments/fig-7.10.toml", "--set", "axis.angle.cells=6", "--set", "axis.length.cells=3", "--set", "trials=2", "--out", `${scratch}/map`);
+  run("run", "studies/environments/optimise-dirt.toml", "--quick", "--set", "quick_evaluations=20", "--set", "trials=2", "--set", "confirm_trials=6", "--set", "finalists=2", "--set", "control_trials=6", "--set", "lighten.trials=6", "--out", `${scratch}/optimisation`);
+  run("run", "studies/formations/table-8.1.toml", "--set", "trials=1", "--set", "set.time.duration=60", "--out", `${scratch}/formation`);
+  run("run", "studies/tracks/sticklebacks.toml", "--out", `${scratch}/tracks`);
+  run("run", "studies/tracks/corridor.toml", "--out", `${scratch}/corridor`);
+  writeFileSync(`${scratch}/several.toml`, SEVERAL);
+  run("run", `${scratch}/several.toml`, "--out", `${scratch}/several`);
   run("run", "studies/schooling.toml", "--quick", "--out", `${scratch}/run`);
   browser = await chromium.launch({
     executablePath: "/usr/bin/chromium",
@@ -71,6 +96,22 @@ const coloursOf = (page, selector) => page.locator(selector).first().evaluate((c
   return new Set(new Uint32Array(canvas.getContext("2d").getImageData(0, 0, width, height).data.buffer)).size;
 });
 const playing = async (page) => { await page.locator(".time[data-step]").waitFor(); await page.locator("[data-do=forth]").click(); await page.waitForFunction(() => Number(document.querySelector(".time").dataset.step) >= 1); };
+/** Sees to it that each button `Copy` gives an SVG with a title and rows of data. */
+async function copies(page) {
+  const buttons = page.locator("main button.copy:visible");
+  const count = await buttons.count();
+  assert.ok(count > 0, "nothing can be copied");
+  for (let at = 0; at < count; at += 1) {
+    await page.evaluate(() => { window.copied = null; Object.defineProperty(navigator, "clipboard", { configurable: true, value: { writeText: async (text) => { window.copied = text; } } }); });
+    await buttons.nth(at).click();
+    const svg = await page.waitForFunction(() => window.copied).then((handle) => handle.jsonValue());
+    assert.match(svg, /^<svg[^>]*xmlns="http:\/\/www.w3.org\/2000\/svg"/);
+    const rows = /<metadata>([^]*?)<\/metadata>/.exec(svg)?.[1].trim().split("\n") ?? [];
+    assert.ok(rows.length > 1 && rows[0].includes(","), `no data in ${svg.slice(0, 200)}`);
+    assert.ok((svg.match(/<(path|rect|circle)/g) ?? []).length > 1 && !/NaN|undefined/.test(svg.replace(/<metadata>[^]*<\/metadata>/, "")), "a drawing of nothing");
+  }
+  return count;
+}
 const overflow = (page) => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
 
 describe("searches", () => {
@@ -81,6 +122,7 @@ describe("searches", () => {
     await page.locator(".multiple").nth(4).click();
     await page.locator(".trials button").first().waitFor();
     assert.equal(await page.locator(".trials button").count(), 3);
+    await copies(page);
     await page.screenshot({ path: `${pictures}/view-study.png` });
     // what is shown is what the tables say
     run("export", `${scratch}/study`, "--to", "csv");
@@ -109,6 +151,7 @@ describe("searches", () => {
     await page.locator(".generation").fill("2");
     await page.locator(".generation").press("Enter");
     await page.locator("h2", { hasText: "Generation 2" }).waitFor();
+    assert.equal(await copies(page), 13);
     await page.screenshot({ path: `${pictures}/view-evolution.png` });
     await page.locator(".watch").click();
     await playing(page);
@@ -124,6 +167,7 @@ describe("searches", () => {
     const slider = page.locator(".derivation input");
     await slider.waitFor();
     const whole = await coloursOf(page, ".large");
+    await copies(page);
     await page.screenshot({ path: `${pictures}/view-design.png` });
     await slider.fill("1");
     assert.match(await page.locator(".derivation output").innerText(), /step 1 of \d+/);
@@ -139,6 +183,7 @@ describe("searches", () => {
     await canvas.click({ position: { x: 180, y: 120 } });
     await page.locator(".watch").waitFor();
     assert.ok(await coloursOf(page, ".large") > 3);
+    await copies(page);
     await page.screenshot({ path: `${pictures}/view-map.png` });
     await canvas.focus();
     await page.keyboard.press("ArrowRight");
@@ -148,8 +193,77 @@ describe("searches", () => {
     await playing(page);
   }));
 
+  test("an optimisation: scores, the best constructs, the archive, the group in any of them", () => opened([`${scratch}/optimisation`], async (page) => {
+    await page.locator(".best").nth(3).waitFor();
+    assert.equal(await page.locator(".best").count(), 5, "four methods, and what was made lighter");
+    assert.ok(await coloursOf(page, ".searching figure canvas") > 8);
+    await page.waitForFunction(() => { const canvas = document.querySelector(".best canvas"); return new Set(new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size > 3; });
+    const archive = page.locator(".searching figure canvas").nth(1);
+    await archive.focus();
+    await page.keyboard.press("Enter");
+    await page.locator("h2", { hasText: /archive, run 1, kind \d+/ }).waitFor();
+    const first = await page.locator("h2", { hasText: "kind" }).innerText();
+    for (const key of ["ArrowRight", "ArrowLeft", "ArrowUp", "ArrowDown"]) {
+      await page.keyboard.press(key);
+      await page.waitForTimeout(150);
+      if (await page.locator("h2", { hasText: "kind" }).innerText() !== first) break;
+    }
+    assert.notEqual(await page.locator("h2", { hasText: "kind" }).innerText(), first, "arrow keys go to another kind");
+    await page.locator(".best").first().click();
+    await page.locator("h2", { hasText: "uniform" }).waitFor();
+    // what is shown is what the tables say
+    run("export", `${scratch}/optimisation`, "--to", "csv");
+    const [names, ...rows] = readFileSync(`${scratch}/optimisation/best.csv`, "utf8").trim().split("\n").map((line) => line.split(","));
+    const shown = (await page.locator(".detail tr", { hasText: "successes" }).locator("td").first().innerText()).split(" of ").map(Number);
+    const told = rows.filter((row) => row[names.indexOf("method")] === "uniform").map((row) => [Math.round(Number(row[names.indexOf("rate")]) * Number(row[names.indexOf("trials")])), Number(row[names.indexOf("trials")])]);
+    assert.ok(told.some(([successes, trials]) => successes === shown[0] && trials === shown[1]), `${shown} is not among ${told}`);
+    await copies(page);
+    await page.locator(".rolls").evaluate((list) => { list.scrollTop = 0; });
+    await page.screenshot({ path: `${pictures}/view-optimisation.png` });
+    await page.locator(".watch").click();
+    await playing(page);
+    assert.match(await page.locator("h1").innerText(), /uniform, run \d, the best, trial 1/);
+    await page.locator("[data-do=overview]").click();
+    await page.locator(".best").first().waitFor();
+  }));
+
+  test("a formation: tasks by methods, and a trial with robots and walls", () => opened([`${scratch}/formation`], async (page) => {
+    await page.locator(".multiple").first().waitFor();
+    assert.equal(await page.locator(".multiple").count(), 19);
+    assert.ok(await coloursOf(page, ".multiples .task") > 3);
+    await page.locator(".multiple").first().focus();
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("Enter");
+    await page.locator("h2", { hasText: "1, dynamic" }).waitFor();
+    await copies(page);
+    await page.screenshot({ path: `${pictures}/view-formation.png` });
+    await page.locator(".watch").click();
+    await page.waitForFunction(() => Number(document.querySelector(".scrub").max) > 10);
+    assert.match(await page.locator("h1").innerText(), /task 1, dynamic, trial 1/);
+    assert.match(await page.locator("#about .legend").innerText(), /shepherds/);
+    // it is scrubbed through, to its end and back
+    await page.locator("[data-do=last]").click();
+    await page.waitForFunction(() => Number(document.querySelector(".time").dataset.step) === Number(document.querySelector(".scrub").max));
+    await page.locator(".scrub").evaluate((input) => { input.value = "150"; input.dispatchEvent(new Event("input", { bubbles: true })); });
+    await page.waitForFunction(() => document.querySelector(".time").dataset.step === "150");
+    await page.screenshot({ path: `${pictures}/view-formation-trial.png` });
+    await page.locator("[data-do=last]").click();
+    await page.waitForFunction(() => Number(document.querySelector(".time").dataset.step) === Number(document.querySelector(".scrub").max));
+    // the time at which it ended is the one in the table
+    run("export", `${scratch}/formation`, "--to", "csv");
+    const [names, ...rows] = readFileSync(`${scratch}/formation/trials.csv`, "utf8").trim().split("\n").map((line) => line.split(","));
+    const row = rows.find((one) => one[names.indexOf("task")] === "1" && one[names.indexOf("method")] === "dynamic" && one[names.indexOf("trial")] === "1");
+    const steps = Number(row[names.indexOf("steps")]);
+    const shown = Number((await page.locator(".time").innerText()).replace(/^t = /, "").split(/\s/)[0]);
+    const step = 60 / Math.round(60 / (shown / steps));
+    assert.ok(Math.abs(shown - steps * step) < 1e-3 * shown, `${shown} after ${steps} steps`);
+    await page.keyboard.press("Home");
+    await page.waitForFunction(() => document.querySelector(".time").dataset.step === "0");
+  }));
+
   test("each fits a phone, light and dark", async () => {
-    for (const kind of ["study", "evolution", "design", "map"]) {
+    for (const kind of ["study", "evolution", "design", "map", "optimisation", "formation"]) {
       await opened([`${scratch}/${kind}`], async (page) => {
         await page.locator(".searching canvas").first().waitFor();
         assert.equal(await overflow(page), 0, kind);
@@ -157,6 +271,63 @@ describe("searches", () => {
       }, { context: { viewport: { width: 360, height: 740 } } });
     }
   });
+});
+
+describe("tracks", () => {
+  const seen = (page) => page.waitForFunction(() => Number(document.querySelector(".scrub").max) > 10 && document.querySelector(".time").dataset.step !== undefined);
+
+  test("individuals in colours, metrics along the time line, units of the table", () => opened([`${scratch}/tracks`], async (page) => {
+    await seen(page);
+    assert.equal(await page.locator("#about .legend li").count(), 5);
+    assert.match(await page.locator(".scale").first().getAttribute("data-length"), /px/);
+    assert.match(await page.locator(".time").innerText(), /frame 0 of 300/);
+    assert.ok(await page.locator(".charts figure").count() > 5);
+    // a click on a chart goes to that time
+    await page.locator(".charts figure canvas").first().click({ position: { x: 160, y: 30 } });
+    await page.waitForFunction(() => Number(document.querySelector(".time").dataset.step) > 20);
+    await page.locator("input.agent").fill("2");
+    await page.locator("#focal .tables", { hasText: "speed" }).waitFor();
+    assert.match(await page.locator("#focal .who").innerText(), /recorded/);
+    assert.match(await page.locator("#focal .tables").innerText(), /whole recording/);
+    await copies(page);
+    await page.screenshot({ path: `${pictures}/view-tracks.png` });
+    await page.keyboard.press("Escape");
+    await page.locator("[data-do=play]").click();
+    const before = Number(await page.locator(".time").getAttribute("data-step"));
+    await page.waitForFunction((before) => Number(document.querySelector(".time").dataset.step) > before + 3, before);
+  }));
+
+  test("people who come and go", () => opened([`${scratch}/corridor`], async (page) => {
+    await seen(page);
+    assert.match(await page.locator(".time").innerText(), /number 500/);
+    await page.locator("[data-do=last]").click();
+    await page.waitForFunction(() => Number(document.querySelector(".time").dataset.step) === Number(document.querySelector(".scrub").max));
+    await page.screenshot({ path: `${pictures}/view-corridor.png` });
+  }));
+
+  test("several recordings of a folder can be chosen, and what was flagged is marked", () => opened([`${scratch}/several`], async (page) => {
+    await page.locator(".screen").nth(1).waitFor();
+    await seen(page);
+    const choice = page.locator(".recordings select");
+    assert.deepEqual((await choice.locator("option").allInnerTexts()).slice(1), ["shoal", "corridor", "in seconds"]);
+    await choice.selectOption({ label: "in seconds" });
+    await page.waitForFunction(() => document.querySelectorAll(".screen").length === 1);
+    await page.locator("#events li.flag").first().waitFor();
+    assert.ok(await page.locator(".event-marks .flag").count() > 0);
+    const when = page.locator("#events li.flag button").first();
+    await when.click();
+    await page.waitForFunction(() => Number(document.querySelector(".time").dataset.step) > 0);
+    // what was measured frame by frame over areas is among the charts
+    assert.ok(await page.locator(".charts figure.own").count() > 0);
+    await page.screenshot({ path: `${pictures}/view-flagged.png` });
+    await choice.selectOption({ index: 0 });
+    await page.locator(".screen").nth(1).waitFor();
+  }));
+
+  test("they fit a phone", () => opened([`${scratch}/tracks`], async (page) => {
+    await seen(page);
+    assert.equal(await overflow(page), 0);
+  }, { context: { viewport: { width: 360, height: 740 } } }));
 });
 
 describe("drawing", () => {
@@ -250,6 +421,58 @@ describe("what is sent", () => {
     await drop(page, "broken.toml", "kind = \"scenario\"\ntitel = 1\n");
     await page.locator("#notice", { hasText: "titel" }).waitFor();
   }));
+
+  /** Drops files with their bytes, as a folder comes in. */
+  const dropFiles = (page, files) => page.evaluate((files) => {
+    const data = new DataTransfer();
+    for (const [name, text] of files) data.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], name));
+    document.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+  }, files.map((path) => [path.split("/").at(-1), readFileSync(path).toString("base64")]));
+  const filesOf = (folder) => readdirSync(folder, { withFileTypes: true }).filter((entry) => entry.isFile()).map(({ name }) => `${folder}/${name}`);
+
+  test("folders, tables and pages that are dropped open as well", () => opened([], async (page) => {
+    await page.locator("#gallery .wall li").first().waitFor();
+    await dropFiles(page, filesOf(`${scratch}/run`));
+    await page.waitForFunction(() => Number(document.querySelector(".scrub").max) === 60);
+    await dropFiles(page, filesOf(`${scratch}/formation`));
+    await page.locator(".multiple").first().waitFor();
+    await dropFiles(page, [`${root}studies/tracks/sticklebacks.csv`]);
+    await page.waitForFunction(() => Number(document.querySelector(".scrub").max) === 300);
+    // nobody wrote down the frame rate: it is said, and not guessed
+    await page.locator("#notice", { hasText: "--fps" }).waitFor();
+    await dropFiles(page, [`${scratch}/run/trajectory.parquet`]);
+    await page.waitForFunction(() => document.querySelector("#about .legend").childElementCount === 200);
+    run("export", `${scratch}/run`, "--to", "html", "--out", scratch);
+    await dropFiles(page, [`${scratch}/run.html`]);
+    await page.waitForFunction(() => Number(document.querySelector(".scrub").max) === 60 && /Read out of/.test(document.querySelector("#about").textContent));
+    await dropFiles(page, [`${scratch}/study/report.html`]);
+    await page.locator("#notice", { hasText: "plays nothing" }).waitFor();
+    await dropFiles(page, [`${scratch}/study/cells.parquet`]);
+    await page.locator("#notice", { hasText: "cannot be opened" }).waitFor();
+    await dropFiles(page, [`${scratch}/run/run.log`].filter((path) => existsSync(path)).concat(`${root}web/style.css`).slice(-1));
+    await page.locator("#notice", { hasText: "What can be opened" }).waitFor();
+  }));
+
+  test("searches are sent with what tells most, and play from disk without a network", async () => {
+    for (const kind of ["study", "evolution", "design", "map", "optimisation", "formation"]) {
+      assert.match(run("export", `${scratch}/${kind}`, "--to", "html", "--out", scratch), new RegExp(`${kind}\\.html: .*to play`));
+      await watched(async (page, context) => {
+        await context.setOffline(true);
+        const address = pathToFileURL(`${scratch}/${kind}.html`).href;
+        await page.goto(address);
+        const player = page.locator(".player").first();
+        await player.locator(".scrub").waitFor();
+        await page.waitForFunction(() => Number(document.querySelector(".player .scrub").max) > 5);
+        await player.locator("[data-do=play]").first().click();
+        await page.waitForFunction(() => Number(document.querySelector(".player .scrub").value) > 2);
+        assert.ok(await page.locator("button", { hasText: "Copy" }).count() > 0);
+        await page.screenshot({ path: `${pictures}/export-${kind}.png` });
+        return address;
+      });
+    }
+    assert.match(run("export", `${scratch}/formation`, "--to", "png", "--at", "task=0,method=2", "--out", scratch), /formation\.png: .*1 frame/);
+    assert.match(run("export", `${scratch}/evolution`, "--to", "gltf", "--every", "20", "--out", scratch), /evolution\.glb: /);
+  });
 
   test("an export plays from disk without a network", async () => {
     const told = run("export", `${scratch}/run`, "--to", "html", "--out", scratch);

@@ -71,6 +71,59 @@ fn what_cannot_be_sent_is_told_with_the_remedy() {
     nothing(&place("nowhere"));
 }
 
+#[test]
+fn a_trial_of_a_search_is_sent_in_every_form_and_its_page_plays_it() {
+    let (folder, out) = (place("export-study"), place("export-study-out"));
+    for path in [&folder, &out] {
+        let _ = std::fs::remove_dir_all(path);
+    }
+    let file = format!("{}/../../studies/compositions/weights.toml", env!("CARGO_MANIFEST_DIR"));
+    let run = flockworks(&[
+        "run",
+        &file,
+        "--quick",
+        "--trials",
+        "1",
+        "--set",
+        "set.time.duration=8",
+        "--out",
+        folder.to_str().unwrap(),
+    ]);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let export = |words: &[&str]| {
+        let begin = ["export", folder.to_str().unwrap(), "--out", out.to_str().unwrap(), "--width", "200"];
+        flockworks(&[&begin, words].concat())
+    };
+    for (form, ending, begins) in
+        [("png", "png", &b"\x89PNG"[..]), ("svg", "svg", b"<svg"), ("gif", "gif", b"GIF89a"), ("gltf", "glb", b"glTF")]
+    {
+        let done = export(&["--to", form, "--at", "cell=3,trial=1"]);
+        assert_eq!(done.status.code(), Some(0), "{form}: {}", text(&done.stderr));
+        assert!(std::fs::read(out.join(format!("export-study.{ending}"))).unwrap().starts_with(begins), "{form}");
+    }
+    let done = export(&["--to", "html"]);
+    assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
+    assert!(text(&done.stdout).contains("the page of the study with 3 to play"), "{}", text(&done.stdout));
+    let page = std::fs::read_to_string(out.join("export-study.html")).unwrap();
+    let own = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    let count = |page: &str| page.matches("<figure").count();
+    assert_eq!(count(&page), count(&own) + 3, "all of its own page, and what is played");
+    for (place, part) in [
+        ("cel=3", "did you mean `cell`"),
+        ("cell", "NAME=NUMBER"),
+        ("cell=999,trial=1", "no cell 999"),
+        ("cell=1,trial=0", "count from 1"),
+    ] {
+        let done = export(&["--to", "png", "--at", place]);
+        assert_eq!(done.status.code(), Some(2), "{place}");
+        assert!(text(&done.stderr).contains(part), "`{part}` is not in: {}", text(&done.stderr));
+    }
+    let run = recorded("export-no-search");
+    let done = flockworks(&["export", run.to_str().unwrap(), "--to", "png", "--at", "cell=1"]);
+    assert_eq!(done.status.code(), Some(2));
+    assert!(text(&done.stderr).contains("--at is for searches"));
+}
+
 #[cfg(unix)]
 #[test]
 fn a_film_is_made_where_there_is_an_ffmpeg_and_else_the_message_says_so() {

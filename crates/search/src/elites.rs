@@ -153,6 +153,14 @@ impl Elites {
     pub fn cells(&self) -> usize {
         self.archive.capacity()
     }
+    /// The cell that descriptors lie in.
+    ///
+    /// # Errors
+    /// As many descriptors as there are kinds are needed.
+    pub fn cell_of(&self, descriptors: &[f64]) -> Result<usize, SearchError> {
+        counted("descriptors", descriptors.len(), self.archive.qd_dim())?;
+        Ok(self.archive.index_of_niche(descriptors))
+    }
     /// The best of every cell that was reached, by ascending cell.
     pub fn elites(&self) -> Vec<Elite> {
         let (scores, points, descriptors) = (self.archive.ys(), self.archive.xs(), self.archive.descriptors());

@@ -10,6 +10,7 @@ use lab::formation::form::Formation as Form;
 use lab::formation::results::NAMES;
 use lab::formation::tables::{OUTCOMES, TRIALS, WALLS};
 use lab::formation::{self, Plan};
+use lab::searched::{Formed, Searched};
 use serde_json::Value as Json;
 use std::io::Write;
 use std::path::Path;
@@ -66,6 +67,9 @@ impl Kind for Formation {
     }
     fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
         Ok((input.name.clone(), read(input, true)?.viewed()))
+    }
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        Ok(Box::new(Formed::open(folder)?))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         execute::of_folder(folder)?;

@@ -86,6 +86,13 @@ pub trait Kind: Sync {
         let what = "holds no recording of a single run";
         wrong(format!("`{}` {what}", folder.display()))
     }
+    /// Names of the recordings, as far as they have any; as many as there are.
+    ///
+    /// # Errors
+    /// As for their number.
+    fn names(&self, folder: &Path) -> Result<Vec<String>, Fault> {
+        Ok((0..self.recordings(folder)?).map(|number| format!("recording {number}")).collect())
+    }
     /// One of them.
     ///
     /// # Errors

@@ -8,6 +8,7 @@ use lab::optimisation::execute::{self, REPORT};
 use lab::optimisation::form::Optimisation as Form;
 use lab::optimisation::tables::{BEST, ELITES, EVALUATIONS};
 use lab::optimisation::{self, Plan};
+use lab::searched::{Optimised, Searched};
 use serde_json::Value as Json;
 use std::io::Write;
 use std::path::Path;
@@ -58,6 +59,9 @@ impl Kind for Optimisation {
             seconds: done.seconds,
         };
         end.tell(out, |out| told(&done.folder, out))
+    }
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        Ok(Box::new(Optimised::open(folder)?))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         execute::of_folder(folder)?;

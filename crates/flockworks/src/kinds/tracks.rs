@@ -79,6 +79,11 @@ impl Kind for Tracks {
         let manifest = folder::manifest_of(path)?;
         Ok(manifest.get("recordings").and_then(Json::as_array).map_or(0, Vec::len))
     }
+    fn names(&self, path: &Path) -> Result<Vec<String>, Fault> {
+        let manifest = folder::manifest_of(path)?;
+        let name = |one: &Json| one.get("name").and_then(Json::as_str).unwrap_or_default().to_owned();
+        Ok(manifest.get("recordings").and_then(Json::as_array).into_iter().flatten().map(name).collect())
+    }
     fn show(&self, path: &Path, recording: usize) -> Result<Box<dyn Shown>, LiveError> {
         Ok(Box::new(Tracked::open(path, recording)?))
     }

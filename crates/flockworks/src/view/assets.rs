@@ -21,10 +21,12 @@ parts! {
     "drawing.js": "text/javascript; charset=utf-8";
     "evolution.js": "text/javascript; charset=utf-8";
     "explain.js": "text/javascript; charset=utf-8";
+    "formation.js": "text/javascript; charset=utf-8";
     "frame.js": "text/javascript; charset=utf-8";
     "gallery.js": "text/javascript; charset=utf-8";
     "main.js": "text/javascript; charset=utf-8";
     "map.js": "text/javascript; charset=utf-8";
+    "optimisation.js": "text/javascript; charset=utf-8";
     "pair.js": "text/javascript; charset=utf-8";
     "pane.js": "text/javascript; charset=utf-8";
     "paper.js": "text/javascript; charset=utf-8";
@@ -37,6 +39,7 @@ parts! {
     "solids.js": "text/javascript; charset=utf-8";
     "study.js": "text/javascript; charset=utf-8";
     "trails.js": "text/javascript; charset=utf-8";
+    "vector.js": "text/javascript; charset=utf-8";
     "words.js": "text/javascript; charset=utf-8";
 }
 

@@ -4,6 +4,7 @@
 //! of its own.
 
 mod assets;
+mod dropped;
 mod requests;
 mod session;
 
@@ -17,12 +18,13 @@ use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use clap::Args;
+use lab::live::Course;
 use lab::searched::Searched;
 use serde_json::{Value as Json, json};
 use session::{Outgoing, Session};
 use std::io::Write;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// Options of `view`.
@@ -57,8 +59,10 @@ pub struct ViewOptions {
 pub(crate) enum Given {
     /// A scenario: name and text.
     Scenario(String, String),
-    /// The folder of a run, and which of its recordings.
-    Run(PathBuf, usize),
+    /// The folder of a run or of tracks, which of its recordings, and the names of all where there are several.
+    Run(PathBuf, usize, Vec<String>),
+    /// A course out of a page: the name of that, and the course.
+    Course(String, Arc<Course>),
     /// A search: name of its folder, kind, and what is known of it.
     Search(String, &'static str, Arc<dyn Searched>),
 }
@@ -68,7 +72,10 @@ impl Given {
     fn told(&self) -> Json {
         match self {
             Self::Scenario(name, _) => json!({ "kind": "scenario", "name": name }),
-            Self::Run(path, _) => json!({ "kind": "run", "name": path.display().to_string() }),
+            Self::Run(path, recording, recordings) => json!({
+                "kind": "run", "name": path.display().to_string(), "recording": recording, "recordings": recordings,
+            }),
+            Self::Course(name, _) => json!({ "kind": "run", "name": name }),
             Self::Search(name, kind, _) => json!({ "kind": "search", "name": name, "of": kind }),
         }
     }
@@ -77,6 +84,8 @@ impl Given {
 /// What all connections share.
 pub(crate) struct Shared {
     given: RwLock<Vec<Given>>,
+    /// Where files are kept that were dropped on the page.
+    dropped: dropped::Kept,
     threads: usize,
     port: u16,
     /// Whether the user let other machines in.
@@ -93,11 +102,12 @@ impl Shared {
     fn told(&self) -> Vec<Json> {
         self.given.read().unwrap_or_else(PoisonError::into_inner).iter().map(Given::told).collect()
     }
-    /// Adds a scenario; its number.
-    fn add(&self, name: String, text: String) -> usize {
+    /// Adds what was given later; the number of the first.
+    fn add(&self, more: Vec<Given>) -> usize {
         let mut given = self.given.write().unwrap_or_else(PoisonError::into_inner);
-        given.push(Given::Scenario(name, text));
-        given.len() - 1
+        let first = given.len();
+        given.extend(more);
+        first
     }
 }
 
@@ -119,15 +129,7 @@ pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let mut given = Vec::new();
     for path in &options.what {
         if path.is_dir() {
-            let kind = kinds::of_folder(path)?;
-            if !kind.records() {
-                given.push(Given::Search(path.display().to_string(), kind.id(), kind.search(path)?.into()));
-                continue;
-            }
-            let recordings = kind.recordings(path)?;
-            // the recordings of one folder are shown as two folders are, side by side
-            let shown = if options.what.len() == 1 { recordings.min(2) } else { 1 };
-            given.extend((0..shown).map(|recording| Given::Run(path.clone(), recording)));
+            given.extend(given_of(path, options.what.len() == 1)?);
         } else {
             let (kind, input) = kinds::read(&path.display().to_string(), &[])?;
             let (name, text) = kind.view(&input, options)?;
@@ -140,6 +142,22 @@ pub fn view(options: &ViewOptions, out: &mut dyn Write) -> Result<(), Fault> {
         .build()
         .map_err(|error| Fault::Ours(format!("cannot start the server: {error}")))?;
     runtime.block_on(serve(options, given, out))
+}
+
+/// What there is to look at in a folder.
+///
+/// # Errors
+/// A folder that holds nothing to look at, or cannot be read.
+fn given_of(path: &Path, alone: bool) -> Result<Vec<Given>, Fault> {
+    let kind = kinds::of_folder(path)?;
+    if !kind.records() {
+        return Ok(vec![Given::Search(path.display().to_string(), kind.id(), kind.search(path)?.into())]);
+    }
+    let names = kind.names(path)?;
+    // the recordings of one folder are shown as two folders are, side by side
+    let shown = if alone { names.len().min(2) } else { 1 };
+    let names = if names.len() > 1 { names } else { Vec::new() };
+    Ok((0..shown).map(|recording| Given::Run(path.to_owned(), recording, names.clone())).collect())
 }
 
 async fn serve(options: &ViewOptions, given: Vec<Given>, out: &mut dyn Write) -> Result<(), Fault> {
@@ -160,7 +178,8 @@ async fn serve(options: &ViewOptions, given: Vec<Given>, out: &mut dyn Write) ->
     if options.open {
         open(&address, out)?;
     }
-    let shared = Arc::new(Shared { given: RwLock::new(given), threads: options.threads, port, open_to_others });
+    let (given, dropped) = (RwLock::new(given), dropped::Kept::new());
+    let shared = Arc::new(Shared { given, dropped, threads: options.threads, port, open_to_others });
     let router = Router::new()
         .route("/", get(page))
         .route("/gallery.json", get(gallery))
@@ -168,6 +187,7 @@ async fn serve(options: &ViewOptions, given: Vec<Given>, out: &mut dyn Write) ->
         .route("/search/{given}", get(requests::overview))
         .route("/search/{given}/part", get(requests::part))
         .route("/given", post(requests::give))
+        .route("/dropped", post(requests::dropped).layer(DefaultBodyLimit::max(dropped::LARGEST)))
         .route("/sketch", post(requests::sketch))
         .route("/sketch/save", post(requests::save))
         .route("/{name}", get(asset))

@@ -1,7 +1,8 @@
 //! What the page asks for beside its socket: searches and their parts, files that were dropped on it, sketches.
 
-use super::{Given, Shared, ViewOptions, admitted, own_page, refused};
+use super::{Given, Shared, ViewOptions, admitted, dropped, own_page, refused};
 use crate::kinds;
+use axum::body::Bytes;
 use axum::extract::{Path as Part, RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -74,10 +75,27 @@ pub(super) async fn give(State(shared): State<Arc<Shared>>, headers: HeaderMap, 
     };
     match seen() {
         Ok((name, text)) => {
-            let number = shared.add(name, text);
+            let number = shared.add(vec![Given::Scenario(name, text)]);
             answer(&json!({ "given": number, "all": shared.told() }))
         }
         Err(fault) => problem(&fault.to_string()),
+    }
+}
+
+/// Takes files that were dropped on the page, as they are. The answer is the number of the first thing to look at among what was
+/// given.
+pub(super) async fn dropped(State(shared): State<Arc<Shared>>, headers: HeaderMap, body: Bytes) -> Response {
+    if !admitted(&headers, &shared) || !own_page(&headers, &shared) {
+        return refused();
+    }
+    let own = Arc::clone(&shared);
+    match tokio::task::spawn_blocking(move || dropped::opened(&body, &own.dropped)).await {
+        Ok(Ok((given, told))) => {
+            let number = shared.add(given);
+            answer(&json!({ "given": number, "all": shared.told(), "told": told }))
+        }
+        Ok(Err(fault)) => problem(&fault.to_string()),
+        Err(error) => (StatusCode::INTERNAL_SERVER_ERROR, error.to_string()).into_response(),
     }
 }
 

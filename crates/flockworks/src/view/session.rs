@@ -2,7 +2,7 @@
 
 use super::{Given, Shared};
 use crate::kinds;
-use lab::live::{LiveError, Shown, simulate};
+use lab::live::{LiveError, Replayed, Shown, simulate};
 use lab::searched::At;
 use serde_json::{Value as Json, json};
 use std::sync::Arc;
@@ -235,16 +235,16 @@ impl Session {
             (simulate(built.id, built.text, &[], None, threads)?, false)
         } else {
             let at = message.get("given").and_then(Json::as_u64).unwrap_or(0) as usize;
+            let place = At::of(message.get("at").unwrap_or(&Json::Null));
             match self.shared.given(at) {
                 Some(Given::Scenario(name, text)) => (simulate(&name, &text, &[], None, threads)?, false),
-                Some(Given::Run(path, recording)) => {
+                Some(Given::Course(_, course)) => (Box::new(Replayed::new((*course).clone())?), true),
+                Some(Given::Run(path, recording, _)) => {
+                    let recording = place.perhaps("recording").unwrap_or(recording);
                     let kind = kinds::of_folder(&path).map_err(|fault| LiveError::Request(fault.to_string()))?;
                     (kind.show(&path, recording)?, true)
                 }
-                Some(Given::Search(_, _, search)) => {
-                    let watched = search.scenario(&At::of(message.get("at").unwrap_or(&Json::Null)))?;
-                    (simulate(&watched.name, &watched.text, &[], watched.seed, threads)?, false)
-                }
+                Some(Given::Search(_, _, search)) => search.watched(&place)?.shown(threads)?,
                 None => return Err(LiveError::Request("the command line named nothing to open".into())),
             }
         };

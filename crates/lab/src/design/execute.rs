@@ -165,15 +165,15 @@ fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, BTreeMap<u64, Vec<Trials
 ///
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
-pub fn look(path: &Path) -> Result<(Plan, BTreeMap<u64, Vec<Trials>>), StoreError> {
+pub fn look(path: &Path) -> Result<(Plan, BTreeMap<u64, Vec<Trials>>, Copies), StoreError> {
     let plan = of_folder(path)?;
     let path = path.join(LOG);
     if !path.exists() {
-        return Ok((plan, BTreeMap::new()));
+        return Ok((plan, BTreeMap::new(), Copies::new()));
     }
     let (mut log, records) = Log::open_to_read(&path)?;
-    let (there, _) = known(&mut log, &records, &path, &plan)?;
-    Ok((plan, there))
+    let (there, copies) = known(&mut log, &records, &path, &plan)?;
+    Ok((plan, there, copies))
 }
 
 /// What the records of a log hold: trials by candidate, changed copies.

@@ -258,16 +258,32 @@ fn opened(folder: &Folder, variants: &Variants) -> Result<History, StoreError> {
 ///
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
-pub fn look(path: &Path) -> Result<(Variants, Vec<Run>), StoreError> {
+pub fn look(path: &Path) -> Result<(Variants, Vec<Run>, Vec<Contest>), StoreError> {
     let variants = of_folder(path)?;
     let path = path.join(HISTORY);
     if !path.exists() {
         let (runs, _) = nothing(&variants);
-        return Ok((variants, runs));
+        return Ok((variants, runs, Vec::new()));
     }
     let (mut log, records) = Log::open_to_read(&path)?;
-    let (runs, _) = known(&mut log, &records, &path, &variants)?;
-    Ok((variants, runs))
+    let (runs, mut tried) = known(&mut log, &records, &path, &variants)?;
+    let contests = held_before(&variants, &runs, &mut tried);
+    Ok((variants, runs, contests))
+}
+
+/// The contests of which everything is known; none where anything is missing.
+fn held_before(variants: &Variants, runs: &[Run], tried: &mut [Tried]) -> Vec<Contest> {
+    let complete = |(k, run): (usize, &Run)| run.generations.len() == variants.plans[variants.of_run(k).0].generations;
+    if !runs.iter().enumerate().all(complete) {
+        return Vec::new();
+    }
+    let runs = runs.chunks(variants.runs());
+    let held = variants.plans.iter().zip(runs).zip(tried).filter(|((plan, _), _)| plan.form.contest.is_some());
+    let one = |((plan, runs), tried): ((&Plan, &[Run]), &mut Tried)| {
+        // nothing is tried anew: what is missing stops it
+        contest::held(plan, runs, tried, 1, &|| true, &mut |_, _, _| ControlFlow::Break(())).ok().flatten()
+    };
+    held.map(one).collect::<Option<Vec<Contest>>>().unwrap_or_default()
 }
 
 /// Runs and contenders of which nothing is known.

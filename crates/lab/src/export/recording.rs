@@ -48,6 +48,8 @@ pub struct Chosen {
     pub frames: Option<RangeInclusive<u64>>,
     /// Every so manieth of them; none for as many as the form takes.
     pub every: Option<u64>,
+    /// So many of them at most, where that is fewer than the form takes.
+    pub most: Option<usize>,
 }
 
 impl Chosen {
@@ -71,13 +73,15 @@ impl Chosen {
             return Err(format!("frames go forwards: {from}..{to} does not"));
         }
         let Most { frames: most, positions } = form.most();
-        let fits = (positions / agents.max(1)).clamp(2, most.max(2)) as u64;
+        let most = most.min(self.most.unwrap_or(most)).max(2);
+        let fits = (positions / agents.max(1)).clamp(2, most) as u64;
         let every = self.every.unwrap_or_else(|| (to - from + 1).div_ceil(fits)).max(1);
         Ok(((from..=to).step_by(every as usize).collect(), every))
     }
 }
 
-/// Reads the chosen frames of a recording; also how many lie from one to the next.
+/// Reads the chosen frames of a recording; also how many lie from one to the next. The frames of a simulation, which stands at its
+/// beginning, are its steps: they are made.
 ///
 /// # Errors
 /// Frames that are not there or cannot be read.
@@ -100,11 +104,18 @@ pub fn read(
         radius.push(one.get("radius").and_then(Json::as_f64).unwrap_or(0.0));
     }
     let agents = group.len();
-    let (frames, every) = chosen.of(form, whole("/frames"), agents).map_err(LiveError::Request)?;
+    let lives = scene.get("kind").and_then(Json::as_str) == Some("live");
+    let there = if lives { whole("/steps") + 1 } else { whole("/frames") };
+    let (frames, every) = chosen.of(form, there, agents).map_err(LiveError::Request)?;
     let (mut times, mut position, mut heading, mut obstacles) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let moves = shown.obstacles_move();
+    let (moves, mut at) = (shown.obstacles_move(), 0);
     for &frame in &frames {
-        shown.seek(frame)?;
+        if lives {
+            shown.advance(frame as i64 - at as i64)?;
+            at = frame;
+        } else {
+            shown.seek(frame)?;
+        }
         times.push(shown.moment().1);
         let (places, headings) = unpacked(&shown.frame(0), dimensions, agents);
         position.push(places);
@@ -115,7 +126,16 @@ pub fn read(
     }
     let stage = stage(&scene, dimensions, &position, (names, radius), text("/units/length"));
     let seed = whole("/seed");
-    let thinned = if every > 1 { format!(" One frame in {every} is kept.") } else { String::new() };
+    let thinned = match (every, lives) {
+        (1, _) => String::new(),
+        (_, true) => format!(" One step in {every} is kept."),
+        (_, false) => format!(" One frame in {every} is kept."),
+    };
+    let what = match (lives, scene.get("of").and_then(Json::as_str)) {
+        (true, _) => "Simulated anew, from its seed.",
+        (_, Some("course")) => "Computed anew, from its beginning to its end.",
+        _ => "The recording as it was.",
+    };
     let recording = Recording {
         title: text("/title"),
         about: text("/about"),
@@ -125,7 +145,7 @@ pub fn read(
         charts: shown.all_metrics().map_or_else(Vec::new, |all| charts(&scene, &all)),
         replay: Replay {
             title: "Replay".into(),
-            about: format!("The recording as it was.{thinned}"),
+            about: format!("{what}{thinned}"),
             stage,
             time_unit: text("/units/time"),
             times,
@@ -173,7 +193,8 @@ fn stage(
             Some("periodic") => Border::Seam,
             _ => Border::Open,
         };
-        if edges[a] != Border::Open {
+        // a course knows its whole stage
+        if edges[a] != Border::Open || scene.get("of").and_then(Json::as_str) == Some("course") {
             continue;
         }
         let places = || frames.iter().flatten().map(|place| f64::from(place[a])).filter(|value| value.is_finite());
@@ -251,6 +272,8 @@ mod tests {
         let all = Chosen::default();
         assert_eq!(all.of(html, 10, 5), Ok(((0..10).collect(), 1)));
         assert_eq!(all.of(png, 20, 5).unwrap().0, (7..=19).collect::<Vec<_>>(), "a moment has its trail before it");
+        let few = Chosen { most: Some(4), ..Chosen::default() };
+        assert_eq!(few.of(html, 10, 5), Ok((vec![0, 3, 6, 9], 3)));
         let some = Chosen { frames: Some(2..=8), every: Some(3), ..Chosen::default() };
         assert_eq!(some.of(html, 10, 5), Ok((vec![2, 5, 8], 3)));
         let (many, every) = all.of(html, 1_000_000, 100_000).unwrap();

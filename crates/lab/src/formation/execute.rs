@@ -12,7 +12,7 @@ use crate::environment::work::{Watch, packed, spread, unpacked};
 use crate::store::StoreError;
 use crate::store::folder::Folder;
 use crate::store::job::{File, Job, Kind};
-use crate::store::log::Log;
+use crate::store::log::{Log, Record};
 use serde_json::json;
 use space::Segment;
 use std::collections::BTreeMap;
@@ -190,8 +190,39 @@ fn finish(folder: &Folder, results: &Results<'_>, program: &str) -> Result<(), S
 fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
     let path = folder.file(LOG);
     let (mut log, records) = Log::resume(&path)?;
+    let there = known(&mut log, &records, &path)?;
+    Ok((log, there))
+}
+
+/// Trials by places of task and method, with their numbers.
+pub type Trials = BTreeMap<(usize, usize), Vec<(usize, Tried)>>;
+
+/// What is known of a formation file in its folder, complete or not, as one looks at it: the walls of each task and the trials.
+///
+/// # Errors
+/// A folder that holds none, or one that cannot be read.
+pub fn look(path: &Path) -> Result<(Plan, Vec<Vec<Wall>>, Trials), StoreError> {
+    let plan = of_folder(path)?;
+    let path = path.join(LOG);
     let mut there = There::default();
-    for record in &records {
+    if path.exists() {
+        let (mut log, records) = Log::open_to_read(&path)?;
+        there = known(&mut log, &records, &path)?;
+    }
+    let walls = (0..plan.tasks.len()).map(|task| plan.tasks[task].ordered(&there.walls(&plan, task))).collect();
+    let mut trials = Trials::new();
+    for ((task, method, number), tried) in there.trials {
+        if number <= plan.trials && task < plan.tasks.len() && method < plan.methods.len() {
+            trials.entry((task, method)).or_default().push((number, tried));
+        }
+    }
+    Ok((plan, walls, trials))
+}
+
+/// What the records of a log hold.
+fn known(log: &mut Log, records: &[Record], path: &Path) -> Result<There, StoreError> {
+    let mut there = There::default();
+    for record in records {
         let words = unpacked(&log.read(record)?);
         let damaged = || StoreError::Damaged(format!("a record in `{}` is no trial", path.display()));
         match (record.kind, words.as_slice()) {
@@ -219,7 +250,7 @@ fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
             _ => return Err(damaged()),
         }
     }
-    Ok((log, there))
+    Ok(there)
 }
 
 /// A record: task, method, number of the trial, steps, and what was read.

@@ -3,13 +3,11 @@
 use super::plan::Plan;
 use super::results::{NAMES, Results, reading};
 use super::task::Task;
-use super::trial;
+use super::{course, trial};
 use crate::design::report::{add_ways, put};
 use crate::environment::claims;
 use crate::report::of_run::paragraphs;
-use crate::report::{
-    Border, Drawing, Drawings, Fact, Figure, Listing, Outline, Page, Replay, Stage, Stroke, Table, short,
-};
+use crate::report::{Drawing, Drawings, Fact, Figure, Listing, Page, Replay, Stroke, Table, short};
 use space::Vector;
 use terrain::Point;
 
@@ -187,14 +185,22 @@ fn circle(centre: Point, radius: f64) -> Vec<[f64; 2]> {
     (0..=CORNERS).map(|k| (centre + Vector::at_angle(angle(k)) * radius).0).collect()
 }
 
-/// Path, gates, start and goal of a task.
-fn of_task(task: &Task, drawing: &mut Drawing) {
-    drawing.strokes.push((Stroke::Structure, task.path.iter().map(|p| p.0).collect()));
-    for gate in task.gates() {
-        drawing.strokes.push((Stroke::Structure, vec![gate.from.0, gate.to.0]));
-    }
-    drawing.strokes.push((Stroke::Structure, circle(task.path[0], task.start_radius)));
-    drawing.strokes.push((Stroke::Structure, circle(task.goal(), task.goal_radius)));
+/// Path, gates, start and goal of a task, as lines.
+pub(crate) fn lines_of(task: &Task) -> Vec<Vec<[f64; 2]>> {
+    let mut lines = vec![task.path.iter().map(|p| p.0).collect()];
+    lines.extend(task.gates().into_iter().map(|gate| vec![gate.from.0, gate.to.0]));
+    lines.push(circle(task.path[0], task.start_radius));
+    lines.push(circle(task.goal(), task.goal_radius));
+    lines
+}
+
+/// A task in its workspace.
+pub(crate) fn of_task(plan: &Plan, task: usize, caption: String) -> Drawing {
+    let mut drawing = Drawing { caption, ..Drawing::default() };
+    put(&mut drawing, &plan.workspace.workspace.geometry, Stroke::There);
+    let lines = lines_of(&plan.tasks[task]).into_iter();
+    drawing.strokes.extend(lines.map(|line| (Stroke::Structure, line)));
+    drawing
 }
 
 /// The first trial of every task with every method.
@@ -213,9 +219,7 @@ fn drawn(results: &Results<'_>) -> Option<Drawings> {
         });
         let fitness = results.of(task, method).first().map_or(f64::NAN, |tried| tried.fitness);
         let caption = format!("{}, {}: {}", plan.tasks[task].name, own.name, number(fitness));
-        let mut drawing = Drawing { caption, ..Drawing::default() };
-        put(&mut drawing, &plan.workspace.workspace.geometry, Stroke::There);
-        of_task(&plan.tasks[task], &mut drawing);
+        let mut drawing = of_task(plan, task, caption);
         let walls = arena.walls.iter().zip(ever).filter(|(_, ever)| *ever);
         drawing.strokes.extend(walls.map(|(wall, _)| (Stroke::Built, vec![wall.at.from.0, wall.at.to.0])));
         add_ways(&mut drawing, &course);
@@ -234,78 +238,8 @@ fn drawn(results: &Results<'_>) -> Option<Drawings> {
     })
 }
 
-fn deep(p: Point) -> [f64; 3] {
-    [p[0], p[1], 0.0]
-}
-
 /// A trial to play: the first.
 fn played(results: &Results<'_>, task: usize, method: usize) -> Option<Replay> {
-    let plan = results.plan;
-    let own = &plan.methods[method];
-    let arena = plan.arena(task, own, &results.walls[task]);
     let steps = results.of(task, method).first()?.steps;
-    let every = (steps / FRAMES).max(1);
-    let (mut times, mut positions, mut outlines, mut step) = (Vec::new(), Vec::new(), Vec::new(), 0u64);
-    let there: Vec<Outline> = plan
-        .workspace
-        .workspace
-        .geometry
-        .iter()
-        .flat_map(|geometry| geometry.segments())
-        .map(|wall| Outline::Segment { from: deep(wall.from), to: deep(wall.to) })
-        .collect();
-    let ran = trial::run(&arena, plan.seed_of(task, 1), &|| false, &mut |shown| {
-        if step.is_multiple_of(every) {
-            times.push(shown.time);
-            positions.push(shown.targets.to_vec());
-            let mut now = there.clone();
-            let walls = arena.walls.iter().zip(shown.standing).filter(|(_, standing)| **standing);
-            now.extend(walls.map(|(wall, _)| Outline::Segment { from: deep(wall.at.from), to: deep(wall.at.to) }));
-            let ball = |&robot: &Point| Outline::Ball { centre: deep(robot), radius: own.shepherds.radius };
-            now.extend(shown.robots.iter().map(ball));
-            outlines.push(now);
-        }
-        step += 1;
-    });
-    ran.ok()??;
-    let points = || positions.iter().flatten().copied().chain(plan.tasks[task].path.iter().copied());
-    let corners = plan.workspace.workspace.boundary.iter().flatten().copied();
-    let all: Vec<Point> = points().chain(corners).collect();
-    let bound = |axis: usize, of: fn(f64, f64) -> f64, from: f64| all.iter().map(|p| p[axis]).fold(from, of);
-    let (low, high) = (
-        [bound(0, f64::min, f64::INFINITY), bound(1, f64::min, f64::INFINITY), 0.0],
-        [bound(0, f64::max, f64::NEG_INFINITY), bound(1, f64::max, f64::NEG_INFINITY), 0.0],
-    );
-    // the way of each, over some frames, is its heading
-    let heading = |frame: usize, member: usize| {
-        let before = frame.saturating_sub(1);
-        let way = positions[before.max(1).min(positions.len() - 1)][member] - positions[before.max(1) - 1][member];
-        deep(way.unit()).map(|v| v as f32)
-    };
-    let group: Vec<usize> = own.population.types.clone();
-    let members = group.len();
-    let headings = if positions.len() > 1 {
-        (0..positions.len()).map(|frame| (0..members).map(|member| heading(frame, member)).collect()).collect()
-    } else {
-        vec![vec![[0.0; 3]; members]; positions.len()]
-    };
-    Some(Replay {
-        title: format!("Task {} by {}", plan.tasks[task].name, own.name),
-        about: "The first trial. Discs are shepherds, lines are walls that stand at the moment.".into(),
-        stage: Stage {
-            dimensions: 2,
-            low,
-            high,
-            edges: [Border::Open; 3],
-            unit: plan.targets.scenario.units.length.clone(),
-            groups: own.population.groups.clone(),
-            radius: vec![own.shepherds.radius; own.population.groups.len()],
-        },
-        time_unit: plan.targets.scenario.units.time.clone(),
-        times,
-        group,
-        position: positions.iter().map(|frame| frame.iter().map(|&p| deep(p).map(|v| v as f32)).collect()).collect(),
-        heading: headings,
-        obstacles: outlines,
-    })
+    course::replay(results.plan, &results.walls[task], (task, method, 1), (steps / FRAMES).max(1)).ok()
 }

@@ -73,7 +73,7 @@ pub(super) fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// What is read of a trial by a name; none for what is not of trials.
-pub(super) fn reading(name: &str) -> Option<fn(&Tried) -> f64> {
+pub(crate) fn reading(name: &str) -> Option<fn(&Tried) -> f64> {
     Some(match name {
         "fitness" | "fitnesses" => |tried| tried.fitness,
         "success" => {

@@ -93,6 +93,8 @@ pub struct Shown<'a> {
     pub robots: &'a [Point],
     /// Whether each wall is there.
     pub standing: &'a [bool],
+    /// Radius of a target's body.
+    pub target_radius: f64,
 }
 
 /// A scenario whose groups start where a task says.
@@ -226,7 +228,7 @@ where
             *stands = controller.stands(wall);
             put.push((first_wall + wall, stands.then_some(narrow(-drawn[wall]))));
         }
-        see(Shown { time, targets: &targets, robots: &robots, standing: &standing });
+        see(Shown { time, targets: &targets, robots: &robots, standing: &standing, target_radius: radii.0 });
         if step == arena.steps || progress.share(parts) >= 1.0 {
             let steps = step + 1;
             return Ok(Some(Tried {

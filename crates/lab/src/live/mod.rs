@@ -1,14 +1,17 @@
-//! Worlds to be looked at: a simulation that runs while one watches and changes it, and a recorded run to scrub through.
+//! Worlds to be looked at: a simulation that runs while one watches and changes it, a recorded run or recorded tracks to
+//! scrub through, and a course that was computed to its end.
 //!
 //! What a viewer shows is said in the messages of `docs/explanation/viewer-protocol.md`; this module makes them, and
 //! knows nothing of how they travel.
 
 mod controls;
 mod recorded;
+mod replayed;
 mod simulated;
 mod tracked;
 
 pub use recorded::Recorded;
+pub use replayed::{Course, Replayed};
 pub use simulated::simulate;
 pub use tracked::Tracked;
 

@@ -28,6 +28,7 @@ impl CellResult {
 }
 
 /// A panel with its map.
+#[derive(Clone)]
 pub struct PanelMap {
     /// The map.
     pub map: Refinement,

@@ -14,7 +14,7 @@ use crate::environment::work::{Watch, packed, spread, unpacked};
 use crate::store::StoreError;
 use crate::store::folder::Folder;
 use crate::store::job::{File, Job, Kind};
-use crate::store::log::Log;
+use crate::store::log::{Log, Record};
 use measure::statistics::wilson;
 use search::elites::Told;
 use serde_json::json;
@@ -144,6 +144,49 @@ fn finish(folder: &Folder, results: &Results<'_>, program: &str) -> Result<(), S
 fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
     let path = folder.file(LOG);
     let (mut log, records) = Log::resume(&path)?;
+    let there = known(&mut log, &records, &path)?;
+    Ok((log, there))
+}
+
+/// What is known of the optimisation in a folder, complete or not, as one looks at it.
+///
+/// # Errors
+/// A folder that holds none, or one that cannot be read.
+pub fn look(path: &Path) -> Result<Looked, StoreError> {
+    let plan = of_folder(path)?;
+    let path = path.join(LOG);
+    let mut there = There::new();
+    if path.exists() {
+        let (mut log, records) = Log::open_to_read(&path)?;
+        there = known(&mut log, &records, &path)?;
+    }
+    let mut nothing_missing = |units: Vec<Unit>, _: &mut There| Ok(units.is_empty());
+    let complete = optimised(&plan, &mut there, &mut nothing_missing)?
+        .map(|results| (results.runs, results.control, results.lighter));
+    let (runs, control, lighter) = match complete {
+        Some(all) => all,
+        None => {
+            let control = without(&plan, &mut there, &mut nothing_missing)?.flatten();
+            (searched(&plan, &mut there, &mut nothing_missing)?.0, control, None)
+        }
+    };
+    Ok(Looked { plan, runs, control, lighter })
+}
+
+/// What is known of an optimisation.
+pub struct Looked {
+    /// The plan.
+    pub plan: Plan,
+    /// The runs, `[methods][runs]`, as far as they came.
+    pub runs: Vec<Vec<Run>>,
+    /// What was found without a construct.
+    pub control: Option<Found>,
+    /// The best construct, made lighter.
+    pub lighter: Option<Lighter>,
+}
+
+/// What the records of a log hold.
+fn known(log: &mut Log, records: &[Record], path: &Path) -> Result<There, StoreError> {
     let mut there = There::new();
     for record in records.iter().filter(|record| record.kind == EVALUATED) {
         let &[method, run, stage, number, score, successes, trials, fitness, steps, material, pieces] =
@@ -155,7 +198,7 @@ fn opened(folder: &Folder) -> Result<(Log, There), StoreError> {
         there
             .insert((method, run, stage, number), Found { score, successes, trials, fitness, steps, material, pieces });
     }
-    Ok((log, there))
+    Ok(there)
 }
 
 fn words((method, run, stage, number): Key, found: &Found) -> [u64; 11] {
@@ -217,8 +260,8 @@ fn kind(plan: &Plan, method: usize, point: &[f64], found: &Found) -> Vec<f64> {
 /// The whole optimisation; none where it was stopped, or something is missing that cannot be made.
 fn optimised<'a>(plan: &'a Plan, there: &mut There, see: &mut See<'_>) -> Result<Option<Results<'a>>, StoreError> {
     let Some(control) = without(plan, there, see)? else { return Ok(None) };
-    let Some(mut runs) = searched(plan, there, see)? else { return Ok(None) };
-    if !confirmed(plan, &mut runs, there, see)? {
+    let (mut runs, done) = searched(plan, there, see)?;
+    if !done || !confirmed(plan, &mut runs, there, see)? {
         return Ok(None);
     }
     let mut results = Results { plan, runs, control, lighter: None };
@@ -243,8 +286,9 @@ fn without(plan: &Plan, there: &mut There, see: &mut See<'_>) -> Result<Option<O
     Ok(found(vec![unit], there, see)?.map(|found| found.first().copied()))
 }
 
-/// All runs of all methods, one generation of each at a time.
-fn searched(plan: &Plan, there: &mut There, see: &mut See<'_>) -> Result<Option<Vec<Vec<Run>>>, StoreError> {
+/// All runs of all methods, one generation of each at a time, as far as they go; and whether they go to their end.
+fn searched(plan: &Plan, there: &mut There, see: &mut See<'_>) -> Result<(Vec<Vec<Run>>, bool), StoreError> {
+    let mut complete = true;
     let mut live: Vec<(usize, usize, Searcher, Run)> = Vec::new();
     for method in 0..plan.form.method.0.len() {
         for run in 0..plan.runs {
@@ -268,7 +312,10 @@ fn searched(plan: &Plan, there: &mut There, see: &mut See<'_>) -> Result<Option<
         if units.is_empty() {
             break;
         }
-        let Some(all) = found(units, there, see)? else { return Ok(None) };
+        let Some(all) = found(units, there, see)? else {
+            complete = false;
+            break;
+        };
         let mut all = all.into_iter();
         for (method, _, searcher, done) in &mut live {
             let left = plan.evaluations - done.evaluations.len();
@@ -276,6 +323,7 @@ fn searched(plan: &Plan, there: &mut There, see: &mut See<'_>) -> Result<Option<
                 continue;
             }
             let candidates = searcher.candidates().to_vec();
+            done.begins.push(done.evaluations.len());
             let mut told = Vec::new();
             for (k, point) in candidates.into_iter().enumerate() {
                 // a generation that the number of evaluations cuts short is told to its end
@@ -293,7 +341,7 @@ fn searched(plan: &Plan, there: &mut There, see: &mut See<'_>) -> Result<Option<
         done.elites = searcher.elites().into_iter().filter(|elite| elite.score > Found::NOTHING.score).collect();
         runs[method].push(done);
     }
-    Ok(Some(runs))
+    Ok((runs, complete))
 }
 
 /// Tries the best candidates of each run again, and the best of them once more; false where it was stopped.

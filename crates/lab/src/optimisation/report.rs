@@ -214,7 +214,7 @@ fn csv(results: &Results<'_>) -> Table {
 }
 
 /// A construct in its workspace.
-fn drawing(plan: &Plan, construct: &Construct, caption: String) -> Drawing {
+pub(crate) fn drawing(plan: &Plan, construct: &Construct, caption: String) -> Drawing {
     let mut drawing = Drawing { caption, ..Drawing::default() };
     put(&mut drawing, &plan.workspace.workspace.geometry, Stroke::There);
     put(&mut drawing, construct.geometry(), Stroke::Built);

@@ -15,6 +15,8 @@ use terrain::Construct;
 pub struct Run {
     /// Its candidates and what was found of them, in their order.
     pub evaluations: Vec<(Vec<f64>, Found)>,
+    /// Places at which generations begin: candidates of one meet in the same trials.
+    pub begins: Vec<usize>,
     /// Places of the candidates that were tried again, the best score first, with what was found then.
     pub finalists: Vec<(usize, Found)>,
     /// The place of its best, and what new trials found.
@@ -24,6 +26,10 @@ pub struct Run {
 }
 
 impl Run {
+    /// The generation of a candidate.
+    pub fn generation(&self, place: usize) -> usize {
+        self.begins.partition_point(|&begin| begin <= place).saturating_sub(1)
+    }
     /// The candidate that was the best.
     pub fn point(&self) -> Option<&[f64]> {
         self.best.map(|(place, _)| self.evaluations[place].0.as_slice())
@@ -60,6 +66,7 @@ impl<'a> Results<'a> {
         let point = plan.domain.lows();
         let run = Run {
             evaluations: vec![(point, found)],
+            begins: vec![0],
             finalists: vec![(0, found)],
             best: Some((0, found)),
             elites: Vec::new(),

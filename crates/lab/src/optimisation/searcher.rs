@@ -117,6 +117,13 @@ impl Searcher {
             Way::Uniform { .. } | Way::Genetic(_) | Way::Strategy(..) => Vec::new(),
         }
     }
+    /// The cell of the archive that a kind lies in; none where kinds are not told apart.
+    pub fn cell_of(&self, kind: &[f64]) -> Option<usize> {
+        match &self.way {
+            Way::Elites(search) => search.cell_of(kind).ok(),
+            Way::Uniform { .. } | Way::Genetic(_) | Way::Strategy(..) => None,
+        }
+    }
     /// Takes what was found of the candidates, in their order.
     ///
     /// # Errors

@@ -12,6 +12,7 @@ mod map;
 pub(crate) mod number;
 pub(crate) mod palette;
 pub(crate) mod replay;
+mod reread;
 mod scene;
 pub(crate) mod ticks;
 
@@ -19,6 +20,7 @@ pub use document::html;
 pub(crate) use drawing::TIMES;
 pub(crate) use drawing::bounds;
 pub(crate) use number::number as short;
+pub use reread::replays;
 
 pub mod of_run;
 pub mod of_tracks;

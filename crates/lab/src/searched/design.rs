@@ -2,11 +2,12 @@
 
 use super::{At, Searched, Watched, drawing, rounded};
 use crate::design::export::environment;
-use crate::design::results::{Share, Trials};
+use crate::design::results::{Results, Share, Trials};
+use crate::design::robustness::{self, Copies};
 use crate::design::{Plan, execute, export, report};
 use crate::environment::candidates::Source;
 use crate::live::LiveError;
-use crate::report::{Drawing, Stroke, bounds};
+use crate::report::{Drawing, Page, Stroke, bounds};
 use crate::store::StoreError;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
@@ -23,6 +24,7 @@ pub struct Designed {
     plan: Plan,
     survey: crate::design::plan::Survey,
     trials: BTreeMap<u64, Vec<Trials>>,
+    copies: Copies,
 }
 
 impl Designed {
@@ -31,9 +33,9 @@ impl Designed {
     /// # Errors
     /// A folder that holds none, or one that cannot be read.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
-        let (plan, trials) = execute::look(path)?;
+        let (plan, trials, copies) = execute::look(path)?;
         let survey = plan.survey().map_err(StoreError::Refused)?;
-        Ok(Self { plan, survey, trials })
+        Ok(Self { plan, survey, trials, copies })
     }
     fn drawn(&self, construct: &Construct) -> Drawing {
         report::of_environment(&environment(&self.plan, construct), String::new())
@@ -118,7 +120,7 @@ impl Searched for Designed {
         let drawings: Vec<Json> = some.map(|(_, construct)| drawing(&self.drawn(construct))).collect();
         Ok(json!({ "from": from, "drawings": drawings }))
     }
-    fn scenario(&self, at: &At) -> Result<Watched, LiveError> {
+    fn watched(&self, at: &At) -> Result<Watched, LiveError> {
         let plan = &self.plan;
         let feasible = &self.survey.feasible;
         let (attempt, construct) = &feasible[at.below("environment", feasible.len())?];
@@ -127,6 +129,31 @@ impl Searched for Designed {
         let title = format!("{}: candidate {attempt}, {}, trial {trial}", plan.form.title, population.name);
         let seed = plan.seed_of(*attempt, trial);
         let name = format!("candidate-{attempt}-{}-trial-{trial}.toml", population.name);
-        Ok(Watched { name, text: export::scenario(plan, population, construct, seed, &title), seed: None })
+        Ok(Watched::Scenario { name, text: export::scenario(plan, population, construct, seed, &title), seed: None })
+    }
+    fn page(&self, program: &str) -> Page {
+        let results = Results::new(&self.plan, self.survey.clone(), self.trials.clone());
+        // copies of environments that were the best of fewer candidates are left out
+        let wanted = robustness::copies(&results).into_iter();
+        let copies = wanted.filter_map(|copy| Some((copy, *self.copies.get(&copy)?))).collect();
+        report::page(&results, &copies, program)
+    }
+    fn telling(&self) -> Vec<At> {
+        let plan = &self.plan;
+        // the best environment for each group, by the first behaviour
+        let best = |population: usize| {
+            let rate = |(place, (attempt, _)): (usize, &(u64, Construct))| {
+                let trials = self.trials.get(attempt)?.get(population)?;
+                let share = Share::of(&trials.built, 0, plan.form.success);
+                (share.trials > 0).then(|| (place, share.rate()))
+            };
+            let rates = self.survey.feasible.iter().enumerate().filter_map(rate);
+            let (place, _) = rates.reduce(|best, other| if other.1 > best.1 { other } else { best })?;
+            Some(At::new(&[("environment", place as f64), ("population", population as f64), ("trial", 1.0)]))
+        };
+        (0..plan.populations.len()).filter_map(best).collect()
+    }
+    fn words(&self) -> Vec<String> {
+        ["environment", "population", "trial"].map(str::to_owned).to_vec()
     }
 }

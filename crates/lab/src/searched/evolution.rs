@@ -1,12 +1,14 @@
 //! An evolution: fitness and genes over the generations of each run, and the world of any generation.
 
 use super::{At, Searched, Watched, all_rounded, rounded};
+use crate::evolution::contest::Contest;
 use crate::evolution::evaluate::{self, world_seed};
 use crate::evolution::execute::{self, Run};
-use crate::evolution::{Plan, Variants};
+use crate::evolution::{Plan, Variants, report};
 use crate::file::write::toml;
 use crate::file::{Form, Node, Span, Tree};
 use crate::live::LiveError;
+use crate::report::Page;
 use crate::store::StoreError;
 use serde_json::{Value as Json, json};
 use std::path::Path;
@@ -19,6 +21,8 @@ pub struct Evolved {
     variants: Variants,
     /// Its runs, variant by variant.
     runs: Vec<Run>,
+    /// Its contests, where all were held.
+    contests: Vec<Contest>,
 }
 
 impl Evolved {
@@ -27,8 +31,8 @@ impl Evolved {
     /// # Errors
     /// A folder that holds none, or one that cannot be read.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
-        let (variants, runs) = execute::look(path)?;
-        Ok(Self { variants, runs })
+        let (variants, runs, contests) = execute::look(path)?;
+        Ok(Self { variants, runs, contests })
     }
     /// Plan, own number from 1, and what is known of a run.
     fn run(&self, at: &At) -> Result<(&Plan, usize, &Run), LiveError> {
@@ -90,7 +94,7 @@ impl Searched for Evolved {
         });
         Ok(json!({ "generations": told.collect::<Vec<_>>() }))
     }
-    fn scenario(&self, at: &At) -> Result<Watched, LiveError> {
+    fn watched(&self, at: &At) -> Result<Watched, LiveError> {
         let (plan, number, run) = self.run(at)?;
         let generation = at.below("generation", run.generations.len())?;
         let one = &run.generations[generation];
@@ -101,7 +105,7 @@ impl Searched for Evolved {
             let tree = Node { tree: scenario.write(), span: Span::default() };
             let name = format!("run-{number}-generation-{generation}.toml");
             let seed = Some(world_seed(plan.seed_of(number), generation as u64));
-            return Ok(Watched { name, text: toml(&tree), seed });
+            return Ok(Watched::Scenario { name, text: toml(&tree), seed });
         }
         let best = || {
             let scored = one.evaluated.scores.iter().enumerate().filter(|(_, score)| score.is_finite());
@@ -122,6 +126,29 @@ impl Searched for Evolved {
             tree.set(key, Node { tree: value, span: span.clone() }).map_err(LiveError::Request)?;
         }
         let name = format!("run-{number}-generation-{generation}-candidate-{candidate}.toml");
-        Ok(Watched { name, text: toml(&tree), seed: None })
+        Ok(Watched::Scenario { name, text: toml(&tree), seed: None })
+    }
+    fn page(&self, program: &str) -> Page {
+        report::page(&self.variants, &self.runs, &self.contests, program)
+    }
+    fn telling(&self) -> Vec<At> {
+        // the last generation of the run that came furthest, and beside it the first
+        let best = |run: &Run| {
+            run.generations.last().map(|one| one.evaluated.scores.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+        };
+        let scored = self.runs.iter().enumerate().filter_map(|(k, run)| Some((k, best(run)?)));
+        let Some((run, _)) = scored.reduce(|best, other| if other.1 > best.1 { other } else { best }) else {
+            return Vec::new();
+        };
+        let last = self.runs[run].generations.len() - 1;
+        let mut chosen = vec![last, 0];
+        chosen.dedup();
+        chosen
+            .into_iter()
+            .map(|generation| At::new(&[("run", run as f64), ("generation", generation as f64)]))
+            .collect()
+    }
+    fn words(&self) -> Vec<String> {
+        ["run", "generation", "candidate"].map(str::to_owned).to_vec()
     }
 }

@@ -7,9 +7,9 @@ use crate::environment::trial;
 use crate::live::LiveError;
 use crate::map::Plan;
 use crate::map::execute::{self, Known};
-use crate::map::measures::{CellResult, PanelMap};
+use crate::map::measures::{CellResult, Found, PanelMap};
 use crate::map::plan::{MapAxis, Panel};
-use crate::report::{Drawing, Stroke};
+use crate::report::{Drawing, Page, Stroke};
 use crate::store::StoreError;
 use serde_json::{Value as Json, json};
 use space::random::child_seed;
@@ -119,7 +119,7 @@ impl Searched for Mapped {
             "fitness": rounded(spot.found.fitness),
         }))
     }
-    fn scenario(&self, at: &At) -> Result<Watched, LiveError> {
+    fn watched(&self, at: &At) -> Result<Watched, LiveError> {
         let spot = self.spot(at)?;
         let plan = &self.plan;
         let population = &spot.panel.population;
@@ -132,6 +132,34 @@ impl Searched for Mapped {
         let attempt = at.perhaps("construct").unwrap_or(0) as u64;
         let seed = child_seed(spot.seed, TRIAL, attempt * execute::TRIALS_OF_ONE + number as u64, 0) >> 1;
         let text = trial::file(population, geometry, seed, &title);
-        Ok(Watched { name: format!("{}.toml", population.name), text, seed: None })
+        Ok(Watched::Scenario { name: format!("{}.toml", population.name), text, seed: None })
+    }
+    fn page(&self, program: &str) -> Page {
+        let panels = self.panels.clone();
+        crate::map::report::page(&Found { plan: &self.plan, panels }, program)
+    }
+    fn telling(&self) -> Vec<At> {
+        // of each panel the middle of the cell that did best; of equals the largest
+        let best = |(number, panel): (usize, &PanelMap)| {
+            let size = |leaf: &search::refine::Leaf| {
+                let (low, high) = panel.map.bounds(&leaf.cell);
+                low.iter().zip(&high).map(|(low, high)| high - low).product::<f64>()
+            };
+            let better = |(leaf, found): &(&search::refine::Leaf, CellResult)| (found.rate(), size(leaf));
+            let (leaf, _) = panel
+                .leaves()
+                .filter(|(_, found)| found.trials > 0)
+                .reduce(|best, other| if better(&other) > better(&best) { other } else { best })?;
+            let (low, high) = panel.map.bounds(&leaf.cell);
+            let names: Vec<String> = (0..low.len()).map(|axis| format!("x{axis}")).collect();
+            let middle =
+                names.iter().zip(low.iter().zip(&high)).map(|(name, (low, high))| (name.as_str(), (low + high) / 2.0));
+            Some(At::new(&[("panel", number as f64), ("trial", 1.0)].into_iter().chain(middle).collect::<Vec<_>>()))
+        };
+        self.panels.iter().enumerate().filter_map(best).collect()
+    }
+    fn words(&self) -> Vec<String> {
+        let axes = (0..self.plan.axes.len()).map(|axis| format!("x{axis}"));
+        ["panel", "trial", "construct"].map(str::to_owned).into_iter().chain(axes).collect()
     }
 }

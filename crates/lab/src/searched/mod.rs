@@ -1,21 +1,25 @@
-//! Searches to be looked at: studies, evolutions, designs, maps. Each gives an overview, its parts as they are asked for, and the
-//! scenario behind each of its places, which is simulated anew when somebody wants to watch it.
+//! Searches to be looked at: studies, evolutions, designs, maps, optimisations, formations. Each gives an overview, its parts as they
+//! are asked for, and what is behind each of its places, which is computed anew when somebody wants to watch it.
 //!
 //! A kind of folder is one file here, and says in its list of kinds (`flockworks::kinds`) that it can be looked at. Nothing is
 //! written: a folder can be looked at while it is being filled.
 
 mod design;
 mod evolution;
+mod formation;
 mod map;
+mod optimisation;
 mod study;
 
 pub use design::Designed;
 pub use evolution::Evolved;
+pub use formation::Formed;
 pub use map::Mapped;
+pub use optimisation::Optimised;
 pub use study::{Studied, trial};
 
-use crate::live::LiveError;
-use crate::report::{Drawing, Stroke};
+use crate::live::{Course, LiveError, Replayed, Shown, simulate};
+use crate::report::{Drawing, Page, Stroke};
 use serde_json::{Map, Value as Json, json};
 
 /// A search.
@@ -27,22 +31,46 @@ pub trait Searched: Send + Sync {
     /// # Errors
     /// A place that is not there.
     fn part(&self, at: &At) -> Result<Json, LiveError>;
-    /// The scenario behind a place.
+    /// What can be watched at a place.
     ///
     /// # Errors
     /// A place that is not there, or has no possible world.
-    fn scenario(&self, at: &At) -> Result<Watched, LiveError>;
+    fn watched(&self, at: &At) -> Result<Watched, LiveError>;
+    /// The places that tell most, which are sent where nobody names one; the first tells most. None where nothing was found yet.
+    fn telling(&self) -> Vec<At>;
+    /// The page of a complete folder; what is missing of an incomplete one is left out.
+    fn page(&self, program: &str) -> Page;
+    /// The names of the numbers of its places, as in `cell=3,trial=1`.
+    fn words(&self) -> Vec<String>;
 }
 
-/// A scenario to be watched.
+/// What can be watched.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Watched {
-    /// Name of its file.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-    /// Its seed, where a file cannot say it.
-    pub seed: Option<u64>,
+pub enum Watched {
+    /// A scenario, which is simulated while one watches.
+    Scenario {
+        /// Name of its file.
+        name: String,
+        /// Its text.
+        text: String,
+        /// Its seed, where a file cannot say it.
+        seed: Option<u64>,
+    },
+    /// A course: what no scenario can say is computed to its end first.
+    Course(Box<Course>),
+}
+
+impl Watched {
+    /// It, to be looked at; also whether it can be scrubbed through.
+    ///
+    /// # Errors
+    /// A scenario without a possible world, a course without a frame.
+    pub fn shown(self, threads: usize) -> Result<(Box<dyn Shown>, bool), LiveError> {
+        Ok(match self {
+            Self::Scenario { name, text, seed } => (simulate(&name, &text, &[], seed, threads)?, false),
+            Self::Course(course) => (Box::new(Replayed::new(*course)?), true),
+        })
+    }
 }
 
 /// A place in a search: numbers by name.
@@ -54,13 +82,28 @@ impl At {
     pub fn of(value: &Json) -> Self {
         Self(value.as_object().cloned().unwrap_or_default())
     }
+    /// Of names and numbers.
+    pub fn new(numbers: &[(&str, f64)]) -> Self {
+        Self(numbers.iter().map(|(key, value)| ((*key).to_owned(), json!(value))).collect())
+    }
     /// From the words of an address: `cell=3&trial=1`.
     pub fn asked(words: &str) -> Self {
-        let number = |pair: &str| {
-            let (key, value) = pair.split_once('=')?;
-            Some((key.to_owned(), json!(value.parse::<f64>().ok()?)))
+        Self(words.split('&').filter_map(|pair| pair.split_once('=').and_then(number)).collect())
+    }
+    /// From the words of a command: `cell=3,trial=1`.
+    ///
+    /// # Errors
+    /// A word that is no name with a number.
+    pub fn written(words: &str) -> Result<Self, String> {
+        let pair = |word: &str| {
+            let found = word.split_once('=').and_then(|(key, value)| number((key.trim(), value.trim())));
+            found.filter(|(key, _)| !key.is_empty()).ok_or_else(|| format!("`{word}` is no NAME=NUMBER"))
         };
-        Self(words.split('&').filter_map(number).collect())
+        words.split(',').map(pair).collect::<Result<_, _>>().map(Self)
+    }
+    /// The names that are not among these.
+    pub fn unknown(&self, known: &[&str]) -> Vec<&str> {
+        self.0.keys().map(String::as_str).filter(|key| !known.contains(key)).collect()
     }
     /// A number, where it is given.
     pub fn number(&self, key: &str) -> Option<f64> {
@@ -88,6 +131,10 @@ impl At {
         }
         Err(LiveError::Request(format!("there is no {key} {number}: there are {count}, counted from 0")))
     }
+}
+
+fn number((key, value): (&str, &str)) -> Option<(String, Json)> {
+    Some((key.to_owned(), json!(value.parse::<f64>().ok()?)))
 }
 
 /// A number with six digits, for a picture; null where it is none.
@@ -137,6 +184,9 @@ mod tests {
         assert!(at.below("cell", 3).unwrap_err().to_string().contains("no cell 3"));
         assert!(at.whole("word").is_err() && At::of(&json!(null)).whole("cell").is_err());
         assert_eq!(At::asked("cell=NaN").number("cell"), None);
+        assert_eq!(At::written("cell = 3, trial=1,x=-0.5"), Ok(at));
+        assert!(At::written("cell").unwrap_err().contains("`cell`") && At::written("=1").is_err());
+        assert_eq!(At::written("cell=1,row=2").unwrap().unknown(&["cell", "trial"]), ["row"]);
     }
 
     #[test]

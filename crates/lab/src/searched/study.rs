@@ -4,10 +4,11 @@ use super::{At, Searched, Watched, rounded};
 use crate::file::write::toml;
 use crate::file::{Node, Tree};
 use crate::live::LiveError;
+use crate::report::Page;
 use crate::store::StoreError;
-use crate::study::Plan;
 use crate::study::execute::{self, Results};
 use crate::study::tables::of_cell;
+use crate::study::{Plan, report};
 use serde_json::{Value as Json, json};
 use std::path::Path;
 
@@ -90,14 +91,32 @@ impl Searched for Studied {
         };
         Ok(json!({ "cells": (0..self.plan.cells.len()).map(cell).collect::<Vec<_>>() }))
     }
-    fn scenario(&self, at: &At) -> Result<Watched, LiveError> {
+    fn watched(&self, at: &At) -> Result<Watched, LiveError> {
         let cell = at.below("cell", self.plan.cells.len())?;
         let number = at.whole("trial")?;
         if number == 0 {
             return Err(LiveError::Request("trials count from 1".into()));
         }
         let (name, text) = trial(&self.plan, cell, number).map_err(LiveError::Request)?;
-        Ok(Watched { name, text, seed: None })
+        Ok(Watched::Scenario { name, text, seed: None })
+    }
+    fn page(&self, program: &str) -> Page {
+        let judgements = report::judgements(&self.plan, &self.results);
+        report::page(&self.plan, &self.results, &judgements, program)
+    }
+    fn telling(&self) -> Vec<At> {
+        // the first cell, the one in the middle and the last, each in its first trial
+        let last = self.plan.cells.len().saturating_sub(1);
+        let mut chosen = vec![0, last / 2, last];
+        chosen.dedup();
+        let first = |&cell: &usize| {
+            let trial = of_cell(&self.plan, &self.results, cell).map(|(trial, _)| trial).next()?;
+            Some(At::new(&[("cell", cell as f64), ("trial", trial as f64)]))
+        };
+        chosen.iter().filter_map(first).collect()
+    }
+    fn words(&self) -> Vec<String> {
+        ["cell", "trial"].map(str::to_owned).to_vec()
     }
 }
 

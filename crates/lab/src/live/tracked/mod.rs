@@ -1,17 +1,23 @@
 //! Tracks of a recording to scrub through: real individuals in the player of simulated ones.
 
+mod marks;
+mod over_time;
+
 use super::{LiveError, Shown, packed};
 use crate::run::tables::AXES;
-use crate::run::{METRICS, TRAJECTORY};
+use crate::run::{EVENTS, METRICS, TRAJECTORY};
 use crate::store::StoreError;
 use crate::store::table::{Table, Values};
 use crate::tracks::folder;
+use crate::tracks::tables::OVER_TIME;
 use serde_json::{Value as Json, json};
 use std::collections::HashMap;
 use std::path::Path;
 
 /// Moments of the metrics that the page is told.
 const MEASURED: usize = 3000;
+/// Individuals up to which each is a group of its own, with a colour and a name.
+const NAMED: usize = 250;
 
 /// The tracks of one recording in the folder of an analysis, frame by frame.
 pub struct Tracked {
@@ -31,6 +37,11 @@ pub struct Tracked {
     rows: Vec<Option<usize>>,
     scene: Json,
     metrics: Json,
+    name: String,
+    names: Vec<String>,
+    units: (String, String),
+    /// What was measured of each individual over the whole recording, by its name.
+    each: HashMap<String, Vec<(String, f64, String)>>,
 }
 
 impl Tracked {
@@ -49,29 +60,55 @@ impl Tracked {
         let agents = names.len();
         let metrics = Table::open(&path.join(METRICS))?;
         let trajectory = Table::open(&path.join(TRAJECTORY))?;
+        let names: Vec<String> = names.iter().map(|name| name.as_str().unwrap_or_default().to_owned()).collect();
         let (numbers, times) = frames(&metrics, recording)?;
-        let places = places(&trajectory, recording, &numbers)?;
+        let (places, gaps) = places(&trajectory, recording, &numbers, agents)?;
+        let mut marks = gaps.marks(&names);
+        if path.join(EVENTS).exists() {
+            marks.extend(marks::told(&Table::open(&path.join(EVENTS))?, recording, &numbers, &names)?);
+        }
+        let over = if path.join(OVER_TIME).exists() {
+            over_time::read(&Table::open(&path.join(OVER_TIME))?, recording)?
+        } else {
+            over_time::Found::default()
+        };
         let step = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
         let step = if step.is_finite() { step } else { 1.0 };
         let unit = |key: &str| about.pointer(&format!("/units/{key}")).cloned().unwrap_or(Json::Null);
         let rate = if unit("time") == "s" { (1.0 / step).clamp(10.0, 60.0) } else { 20.0 };
-        let (list, all) = metrics_of(&metrics, recording)?;
+        let (mut list, mut all) = metrics_of(&metrics, recording)?;
+        if let Some(list) = list.as_array_mut() {
+            list.extend(over.charts);
+        }
+        all["own"] = over.lines.into();
+        let name = about.get("name").and_then(Json::as_str).unwrap_or_default().to_owned();
+        let groups: Vec<Json> = if agents <= NAMED {
+            let one = |(k, name): (usize, &String)| json!({ "name": name, "model": "", "title": "", "first": k, "count": 1, "radius": 0.0 });
+            names.iter().enumerate().map(one).collect()
+        } else {
+            vec![json!({ "name": name, "model": "", "title": "recorded", "first": 0, "count": agents, "radius": 0.0 })]
+        };
+        // frames have numbers of their own, which are told where they follow each other evenly
+        let by = numbers.get(1).map_or(1, |second| second - numbers[0]);
+        let even = numbers.windows(2).all(|pair| pair[1] - pair[0] == by);
+        let numbered = (even && !numbers.is_empty()).then(|| json!({ "first": numbers[0], "by": by }));
         let ends = |key: &str| about.get(key).cloned().unwrap_or(Json::Null);
         let scene = json!({
             "is": "scene",
             "kind": "run",
+            "of": "tracks",
             "title": manifest.get("title"),
             "about": manifest.get("about"),
-            "seed": 0,
+            "seed": Json::Null,
+            "recording": name,
+            "numbered": numbered,
             "dimensions": dimensions,
             "units": { "length": unit("length"), "time": unit("time") },
             "space": {
                 "edges": vec!["open"; dimensions], "size": vec![Json::Null; dimensions],
                 "low": ends("low"), "high": ends("high"),
             },
-            "groups": [{
-                "name": about.get("name"), "model": "", "title": "recorded", "first": 0, "count": agents, "radius": 0.0,
-            }],
+            "groups": groups,
             "labels": [],
             "step": step,
             "steps": times.len().saturating_sub(1),
@@ -80,13 +117,31 @@ impl Tracked {
             "every_steps": 1,
             "metrics": list,
             "controls": [],
-            "events": [],
+            "events": marks::listed(marks, &times),
         });
         let text = manifest.pointer("/file/text").and_then(Json::as_str).unwrap_or_default().to_owned();
         let block = (usize::MAX, Vec::new());
         let rows = vec![None; agents];
-        let mut tracked =
-            Self { trajectory, text, dimensions, agents, rate, times, places, at: 0, block, rows, scene, metrics: all };
+        let word = |key: &str| unit(key).as_str().unwrap_or_default().to_owned();
+        let units = (word("length"), word("time"));
+        let mut tracked = Self {
+            trajectory,
+            text,
+            dimensions,
+            agents,
+            rate,
+            times,
+            places,
+            at: 0,
+            block,
+            rows,
+            scene,
+            metrics: all,
+            name,
+            names,
+            units,
+            each: over.each,
+        };
         tracked.load()?;
         Ok(tracked)
     }
@@ -132,15 +187,19 @@ fn frames(metrics: &Table, recording: usize) -> Result<(Vec<i64>, Vec<f64>), Sto
     Ok((numbers, times))
 }
 
-/// Where the rows of each frame lie.
+/// Where rows lie: row group, first row, number of rows; none where nobody was found.
+type Places = Vec<Option<(usize, usize, usize)>>;
+
+/// Where the rows of each frame lie, and what is missing between them.
 fn places(
     trajectory: &Table,
     recording: usize,
     numbers: &[i64],
-) -> Result<Vec<Option<(usize, usize, usize)>>, StoreError> {
-    let wanted = [column(trajectory, "run")?, column(trajectory, "frame")?];
+    individuals: usize,
+) -> Result<(Places, marks::Gaps), StoreError> {
+    let wanted = [column(trajectory, "run")?, column(trajectory, "frame")?, column(trajectory, "id")?];
     let index: HashMap<i64, usize> = numbers.iter().enumerate().map(|(place, &number)| (number, place)).collect();
-    let mut places = vec![None; numbers.len()];
+    let (mut places, mut gaps) = (vec![None; numbers.len()], marks::Gaps::new(individuals));
     for group in 0..trajectory.groups() {
         let read = trajectory.read(group, &wanted)?;
         let mut from = 0;
@@ -151,11 +210,12 @@ fn places(
             let place = index.get(&(frame as i64)).filter(|_| read[0].number(from) as usize == recording);
             if let Some(&place) = place {
                 places[place] = Some((group, from, to - from));
+                (from..to).for_each(|row| gaps.see(read[2].number(row) as usize, place));
             }
             from = to;
         }
     }
-    Ok(places)
+    Ok((places, gaps))
 }
 
 /// The metrics of a recording that are defined somewhere, as the scene lists them, and the message `metrics_all`.
@@ -232,8 +292,48 @@ impl Shown for Tracked {
     fn all_metrics(&self) -> Option<Json> {
         Some(self.metrics.clone())
     }
-    fn explain(&mut self, _: u32) -> Result<Json, LiveError> {
-        Err(LiveError::Request("nobody knows what moves a recorded individual; simulated ones can be asked".into()))
+    /// Nobody knows what moves a recorded individual: what it does is told, and what was measured of it.
+    fn explain(&mut self, agent: u32) -> Result<Json, LiveError> {
+        let id = agent as usize;
+        let Some(name) = self.names.get(id) else {
+            return Err(LiveError::Request(format!("there is no individual {agent}")));
+        };
+        let (length, time) = &self.units;
+        let columns = &self.block.1;
+        let (step, t, _) = self.moment();
+        let row = self.rows[id];
+        let axis = |a: usize| row.map_or(f64::NAN, |row| columns[a].number(row));
+        let three = |first: usize| -> Vec<f64> {
+            let there = (0..self.dimensions).map(|a| axis(first + a));
+            there.map(|value| if value.is_finite() { value } else { 0.0 }).chain([0.0; 3]).take(3).collect()
+        };
+        let (position, velocity) = (three(1), three(1 + self.dimensions));
+        let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let heading: Vec<f64> = velocity.iter().map(|v| if speed > 1e-12 { v / speed } else { 0.0 }).collect();
+        let moves = row.is_some() && axis(1 + self.dimensions).is_finite();
+        let mut values = vec![
+            json!({ "stage": "now", "name": "there", "value": if row.is_some() { "yes" } else { "missing in this frame" } }),
+        ];
+        if row.is_some() {
+            let places = AXES.iter().take(self.dimensions).zip(&position);
+            values.extend(
+                places.map(|(axis, value)| json!({ "stage": "now", "name": axis, "value": value, "unit": length })),
+            );
+        }
+        if moves {
+            values.push(json!({ "stage": "now", "name": "speed", "value": speed, "unit": format!("{length}/{time}") }));
+        }
+        let whole = self.each.get(name).into_iter().flatten();
+        values.extend(whole.map(
+            |(name, value, unit)| json!({ "stage": "whole recording", "name": name, "value": value, "unit": unit }),
+        ));
+        Ok(json!({
+            "agent": agent, "recorded": true, "name": marks::called(&self.names, id), "group": self.name, "model": "",
+            "step": step, "t": t, "position": position, "heading": heading, "radius": 0.0,
+            "velocity": moves.then_some(velocity),
+            "sensing": Json::Null, "rays": [], "detected": [], "sets": [], "obstacles": [], "components": [], "choice": [],
+            "values": values, "wanted": Json::Null, "performed": Json::Null,
+        }))
     }
     fn seek(&mut self, frame: u64) -> Result<(), LiveError> {
         self.at = (frame as usize).min(self.times.len().saturating_sub(1));
