@@ -4,6 +4,7 @@ use crate::conduct::{self, Explore, Flee, Hunt, Lead, Rest};
 use crate::engine::kernel::View;
 use crate::motion::Motion;
 use crate::parameters::Scalar;
+use core::ops::Range;
 use space::random::{Purpose, Stream as DrawStream, unit_vector};
 use space::{GroupRange, Vector};
 
@@ -29,8 +30,8 @@ pub(crate) struct Conduct<R> {
     explore: Option<Explore<R>>,
     acceleration: Option<R>,
     own: GroupRange,
-    /// Place of its first column among those of the body.
-    first: usize,
+    /// Places of its columns among those of the body.
+    columns: Range<usize>,
 }
 
 impl<R: Scalar> Conduct<R> {
@@ -67,7 +68,7 @@ impl<R: Scalar> Conduct<R> {
             explore: plan.explore,
             acceleration: plan.acceleration,
             own,
-            first,
+            columns: first..first + plan.columns().len(),
         })
     }
 
@@ -81,7 +82,7 @@ impl<R: Scalar> Conduct<R> {
         dt: R,
         body: &mut [R],
     ) -> Motion<R, D> {
-        let own = &mut body[self.first..];
+        let own = &mut body[self.columns.clone()];
         let draws = DrawStream::new(view.seed, Purpose::Computation, view.step, view.now.id[row]);
         let velocity = view.now.velocity(row);
         let heading = velocity.unit();
