@@ -459,11 +459,11 @@ impl Case {
                 gains: food.gains.iter().map(gain).collect(),
                 respawn: Respawn::After(0.0),
                 metabolism: food.metabolism.map(|(cost, starvation)| Metabolism {
-                    energy: "energy".into(),
                     cost: R::of(cost),
-                    health: "health".into(),
                     starvation: R::of(starvation),
+                    ..Metabolism::default()
                 }),
+                ..ResourcePlan::default()
             });
         }
         plan.seed = self.seed.unwrap_or(1);

@@ -308,12 +308,8 @@ impl Workload {
             within: R::of(5.0),
             gains: vec![gain("energy", 40.0), gain("health", 10.0)],
             respawn: Respawn::After(0.0),
-            metabolism: Some(Metabolism {
-                energy: "energy".into(),
-                cost: R::ONE,
-                health: "health".into(),
-                starvation: R::ONE,
-            }),
+            metabolism: Some(Metabolism::default()),
+            ..ResourcePlan::default()
         });
         plan
     }

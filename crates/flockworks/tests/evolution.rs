@@ -123,6 +123,37 @@ fn a_shared_world_goes_on_as_if_it_had_never_stopped() {
 }
 
 #[test]
+fn a_killed_evolution_goes_on_to_the_same_history() {
+    let folder = folder("killed");
+    std::fs::write(folder.join("flocks.toml"), SHARED).unwrap();
+    let run = |out: &str, threads: &str| {
+        done(&folder, &["run", "flocks.toml", "--out", out, "--set", "generations=80", "--threads", threads]);
+    };
+    run("whole", "2");
+    let log = folder.join("killed/generations.log");
+    let length = || log.metadata().map_or(0, |file| file.len());
+    let whole = folder.join("whole/generations.log").metadata().unwrap().len();
+    // killed as soon as something more is written, several times over
+    for share in [20, 5, 2] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_flockworks"))
+            .current_dir(&folder)
+            .args(["run", "flocks.toml", "--out", "killed", "--set", "generations=80", "--threads", "1"])
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        while length() < whole / share && child.try_wait().unwrap().is_none() {
+            std::thread::yield_now();
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert!(length() > 0, "nothing was kept");
+    run("killed", "3");
+    assert_eq!(tables(&folder.join("whole")), tables(&folder.join("killed")));
+}
+
+#[test]
 fn other_searches_run_and_go_on() {
     let folder = folder("searches");
     let template = done(&folder, &["new", "evolution"]);

@@ -4,6 +4,7 @@
 //! It knows no file and no screen.
 
 pub mod card;
+pub mod conduct;
 pub mod detection;
 pub mod engine;
 pub mod models;

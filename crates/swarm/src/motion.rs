@@ -493,6 +493,10 @@ pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
     fn velocity_is_step(&self) -> bool {
         false
     }
+    /// Whether a motion that is no number is not made. Only a law that is broken on purpose, to study that, says no.
+    fn guarded(&self) -> bool {
+        true
+    }
     /// Speed at the start when the scenario gives none.
     fn initial_speed(&self) -> R {
         R::ONE

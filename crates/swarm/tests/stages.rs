@@ -426,7 +426,8 @@ fn agents_feed_starve_and_die() {
         within: 5.0,
         gains: vec![Gain { column: "energy".into(), amount: 40.0, capacity: 100.0 }],
         respawn: Respawn::Never,
-        metabolism: Some(Metabolism { energy: "energy".into(), cost: 1.0, health: "health".into(), starvation: 1.0 }),
+        metabolism: Some(Metabolism::default()),
+        ..ResourcePlan::default()
     });
     // out of sight of the food, nobody eats: 68 of energy and then health, at 1.5 a step, 80 steps
     plan.groups[0].parameters = values(&[("see_food", 1.0.into())]);

@@ -372,7 +372,9 @@ fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
             Wrong::new(path, error.to_string(), "not possible together")
         }
         WorldError::Group { group, problem } => {
-            let place = if problem.contains("scanner") {
+            let place = if problem.starts_with("conduct") {
+                ".conduct"
+            } else if problem.contains("scanner") {
                 ".sensing"
             } else if problem.starts_with("set `") || problem.contains("named set") {
                 ".select"
@@ -386,7 +388,9 @@ fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
         WorldError::Dimension { .. } => Wrong::new("space.dimensions", error.to_string(), "not for this model"),
         WorldError::Model { .. } => Wrong::new("group", error.to_string(), ""),
         WorldError::World(problem) => {
-            let place = if problem.contains("resources") {
+            let place = if problem.contains("predation") {
+                "food.predation"
+            } else if problem.contains("resources") {
                 "food"
             } else if problem.contains("obstacle") {
                 "obstacle"
@@ -573,6 +577,7 @@ where
     if let Some(sensing) = &group.sensing {
         plan.sensing = sensing.resolved();
     }
+    plan.conduct = group.conduct.as_ref().map(super::Conduct::resolved);
     if let Some(physics) = physics {
         plan.mobility = physics.mobility.resolved();
         plan.contact = physics.contact.map(Into::into);

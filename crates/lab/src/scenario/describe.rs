@@ -66,6 +66,29 @@ fn world(scenario: &Scenario, schedule: &Schedule) -> String {
             " {count} items of food were there; the nearest living agent within {} {length} consumed one.",
             number(food.within)
         );
+        if let Some(sharing) = &food.sharing {
+            text += &format!(
+                " Mates within {} {length} of it got {} of what it got, each.",
+                number(sharing.within),
+                number(sharing.share)
+            );
+        }
+        if let Some(living) = food.metabolism.as_ref().filter(|living| living.motion > 0.0) {
+            text += &format!(" Motion cost {} times the squared speed per {time}", number(living.motion));
+            text += &match &living.drafting {
+                Some(drafting) => format!(", less {} of it for who drafted behind a mate.", number(drafting.saving)),
+                None => ".".to_owned(),
+            };
+        }
+        for (_, predation) in &food.predation.0 {
+            let prey: Vec<String> = predation.prey.iter().map(|name| format!("`{name}`")).collect();
+            text += &format!(
+                " Members of `{}` harmed the nearest of {} within {} {length}.",
+                predation.hunters,
+                listed(&prey),
+                number(predation.within)
+            );
+        }
     }
     let order = match &scenario.time.driver {
         Driver::Synchronous(_) => "all agents read the state of one time and then moved together".to_owned(),
@@ -158,6 +181,15 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
     text += &sensing(group, scenario);
     for (set, choice) in &group.select.0 {
         text += &format!(" The set `{set}` held those that `{}` selects.", selection(choice));
+    }
+    if let Some(conduct) = &group.conduct {
+        let states: Vec<String> = conduct.states().into_iter().map(str::to_owned).collect();
+        if !states.is_empty() {
+            text += &format!(
+                " A state machine stood over this law: in the states {} it gave way to what these say.",
+                listed(&states)
+            );
+        }
     }
     if let Some(physics) = &group.physics {
         text += match &physics.mobility {

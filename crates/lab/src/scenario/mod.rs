@@ -6,6 +6,7 @@
 pub mod agents;
 pub mod body;
 pub mod build;
+pub mod conduct;
 pub mod describe;
 pub mod perception;
 pub mod sensing;
@@ -17,6 +18,7 @@ use crate::{form, tagged, words};
 
 pub use agents::{Model, PerMember};
 pub use body::Physics;
+pub use conduct::Conduct;
 pub use perception::Choice;
 pub use sensing::Sensing;
 pub use start::Start;
@@ -186,6 +188,8 @@ form! {
         sensing: Option<Sensing> = none, "", Any;
         /// Whom the model's named sets select, in place of what the model itself says.
         select: Named<Choice> = [Named::default()], "", Any;
+        /// What it does beside its law; left out, nothing.
+        conduct: Option<Conduct> = none, "", Any;
         /// Bodies.
         physics: Option<Physics> = none, "", Any;
     }

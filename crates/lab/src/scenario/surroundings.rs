@@ -8,7 +8,7 @@ use space::obstacles::{self, Plan};
 use space::random::{Purpose, uniform};
 use space::shape::Shape;
 use space::{Edge, Real, Space, Vector};
-use swarm::resources::{Gain, Metabolism, ResourcePlan, Respawn};
+use swarm::resources::{self, Gain, Metabolism, ResourcePlan, Respawn, Sharing, Store};
 
 tagged! {
     /// The shape of an obstacle.
@@ -298,6 +298,52 @@ form! {
         health: String = ["health".to_owned()], "", Any;
         /// What is taken from health per unpaid unit.
         starvation: f64 = [1.0], "1", NonNegative;
+        /// What is paid per time and squared speed, for motion against drag.
+        motion: f64 = [0.0], "time/length^2", NonNegative;
+        /// Who moves aligned behind a mate saves some of what motion costs; left out, nothing.
+        drafting: Option<Drafting> = none, "", Any;
+    }
+}
+
+form! {
+    /// Moving aligned behind a member of the own group.
+    pub struct Drafting {
+        /// The one ahead is nearer than this.
+        within: f64 = need, "length", Positive;
+        /// It lies within this angle of the own heading.
+        ahead: f64 = [30.0], "deg", Within(0.0, 180.0);
+        /// Its heading differs from the own by no more than this.
+        aligned: f64 = [30.0], "deg", Within(0.0, 180.0);
+        /// Share of the cost of motion that is saved.
+        saving: f64 = need, "1", Within(0.0, 1.0);
+    }
+}
+
+form! {
+    /// What mates near by get of a meal.
+    pub struct Shared {
+        /// Living members of the eater's group nearer to it than this get some.
+        within: f64 = need, "length", NonNegative;
+        /// What each of them gets, as a share of what the eater gets.
+        share: f64 = need, "1", NonNegative;
+    }
+}
+
+form! {
+    /// Members of one group harm those of others.
+    pub struct Predation {
+        /// The group that hunts.
+        hunters: String = need, "", Any;
+        /// The groups that it harms.
+        prey: Vec<String> = need, "", Any;
+        /// The column from which damage is taken; an agent at 0 is dead.
+        health: String = ["health".to_owned()], "", Any;
+        /// A hunter harms the nearest living prey that is nearer than this.
+        within: f64 = need, "length", NonNegative;
+        /// What it takes from it per time.
+        damage: f64 = need, "1/time", NonNegative;
+        /// What every living prey that is so near takes from the hunter per time.
+        rebuttal: f64 = [0.0], "1/time", NonNegative;
     }
 }
 
@@ -314,8 +360,27 @@ form! {
         gains: Named<FoodGain> = [Named::default()], "", Any;
         /// When a consumed item comes back.
         respawn: Return = [Return::After(0.0)], "", Any;
+        /// What mates near by get of a meal; left out, nothing.
+        sharing: Option<Shared> = none, "", Any;
+        /// Columns that every agent of the world has, with their values at the start; so any model may eat, live and die.
+        stores: Named<f64> = [Named::default()], "1", Any;
         /// What it costs to live.
         metabolism: Option<Living> = none, "", Any;
+        /// Who harms whom, by names of yours.
+        predation: Named<Predation> = [Named::default()], "", Any;
+    }
+}
+
+impl Predation {
+    fn resolved<R: Real>(&self) -> resources::Predation<R> {
+        resources::Predation {
+            hunters: self.hunters.clone(),
+            prey: self.prey.clone(),
+            health: self.health.clone(),
+            within: R::of(self.within),
+            damage: R::of(self.damage),
+            rebuttal: R::of(self.rebuttal),
+        }
     }
 }
 
@@ -371,7 +436,25 @@ impl Food {
                 cost: R::of(living.cost),
                 health: living.health.clone(),
                 starvation: R::of(living.starvation),
+                motion: R::of(living.motion),
+                drafting: living.drafting.as_ref().map(|drafting| resources::Drafting {
+                    within: R::of(drafting.within),
+                    ahead: R::of(drafting.ahead.to_radians()),
+                    aligned: R::of(drafting.aligned.to_radians()),
+                    saving: R::of(drafting.saving),
+                }),
             }),
+            sharing: self
+                .sharing
+                .as_ref()
+                .map(|sharing| Sharing { within: R::of(sharing.within), share: R::of(sharing.share) }),
+            stores: self
+                .stores
+                .0
+                .iter()
+                .map(|(column, start)| Store { column: column.clone(), start: R::of(*start) })
+                .collect(),
+            predation: self.predation.0.iter().map(|(_, predation)| predation.resolved()).collect(),
         })
     }
 }

@@ -152,18 +152,34 @@ form! {
         scale: f64 = [1.0], "", Any;
         /// Of whom.
         of: Whose = [Whose::Everyone], "", Any;
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
         /// Members at most this far apart are of one cluster.
         linking_distance: f64 = [25.0], "length", Positive;
     }
 }
 
 form! {
-    /// The mean of a quantity or count of the model, over all members and looks.
+    /// The mean of a quantity or count of the model, over all living members and looks.
     pub struct ColumnReading {
         /// The column of the model, as `n_align`.
         column: String = need, "", Any;
         /// What it is multiplied by.
         scale: f64 = [1.0], "", Any;
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
+        /// What is made of the means of the looks.
+        statistic: Statistic = [Statistic::Mean], "", Any;
+    }
+}
+
+form! {
+    /// The share of the members that live, over the looks.
+    pub struct AliveReading {
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
+        /// What is made of the shares.
+        statistic: Statistic = [Statistic::Mean], "", Any;
     }
 }
 
@@ -291,6 +307,32 @@ form! {
     }
 }
 
+words! {
+    /// What is read off the ground.
+    pub enum GroundQuantity {
+        /// Area of the cells in which the group has members.
+        Area = "area",
+        /// Cells in which both groups have members, over those in which either has.
+        Overlap = "overlap",
+    }
+}
+
+form! {
+    /// Something of the ground that a group holds, cell by cell, over the looks.
+    pub struct GroundReading {
+        /// What.
+        quantity: GroundQuantity = need, "", Any;
+        /// Side of the cells, which begin at the origin.
+        cell: f64 = need, "length", Positive;
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
+        /// The other group, of an overlap; left out, everyone.
+        with: Option<String> = none, "", Any;
+        /// What is made of its values.
+        statistic: Statistic = [Statistic::Mean], "", Any;
+    }
+}
+
 tagged! {
     /// What is read off a trial: one number.
     pub enum Quantity {
@@ -302,6 +344,8 @@ tagged! {
         share => Share(ShareReading);
         /// A mean of a column.
         column => Column(ColumnReading);
+        /// Who lives.
+        alive => Alive(AliveReading);
         /// Contacts.
         contacts => Contacts(ContactReading);
         /// Coverage of the space.
@@ -310,6 +354,8 @@ tagged! {
         cluster => Cluster(ClusterReading);
         /// Something of the paths.
         path => Path(PathReading);
+        /// Something of the ground that is held.
+        ground => Ground(GroundReading);
         /// Something of the food.
         food => Food(FoodReading);
         /// The distance between obstacles.

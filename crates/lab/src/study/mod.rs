@@ -8,6 +8,7 @@ pub mod claims;
 pub mod execute;
 pub mod expression;
 pub mod form;
+mod ground;
 mod meals;
 pub mod plan;
 pub mod report;

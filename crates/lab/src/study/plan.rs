@@ -932,6 +932,7 @@ pub(crate) fn usual_readings(scenario: &Scenario) -> Vec<(String, Reading)> {
                     state: (*label).to_owned(),
                     scale: 1.0,
                     of: Whose::Everyone,
+                    group: None,
                     linking_distance: 25.0,
                 });
                 add(name, &format!("Share of members whose {} is {label}", column.name), String::new(), of);

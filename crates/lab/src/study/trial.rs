@@ -1,9 +1,10 @@
 //! One trial: a condition's world with the seed of the trial, stepped to its end and looked at on the way.
 
 use super::form::{
-    ClusterQuantity, ClusterReading, ContactReading, CoverageReading, InsideReading, Partner, PathQuantity, Quantity,
-    ShareReading, Statistic, Whose,
+    ClusterQuantity, ClusterReading, ContactReading, CoverageReading, GroundReading, InsideReading, Partner,
+    PathQuantity, Quantity, ShareReading, Statistic, Whose,
 };
+use super::ground;
 use super::meals::Meals;
 use super::plan::{Condition, Plan, entry_place};
 use crate::file::{Desk, Node};
@@ -305,10 +306,21 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
             let state = labels.iter().position(|label| *label == reading.state).ok_or_else(|| {
                 format!("`{}` is never `{}`; it is one of {}", reading.column, reading.state, labels.join(", "))
             })?;
-            Box::new(OfShare { column, state, reading: reading.clone(), mean: Mean::default() })
+            let group = group(reading.group.as_deref())?;
+            Box::new(OfShare { column, state, group, reading: reading.clone(), mean: Mean::default() })
         }
         Quantity::Column(reading) => {
-            Box::new(OfColumn { column: column(&reading.column)?, scale: reading.scale, mean: Mean::default() })
+            let (column, group) = (column(&reading.column)?, group(reading.group.as_deref())?);
+            let values = Values::new(reading.statistic);
+            Box::new(OfColumn { column, group, scale: reading.scale, mean: Mean::default(), values })
+        }
+        Quantity::Alive(reading) => {
+            let values = Values::new(reading.statistic);
+            Box::new(OfAlive { group: group(reading.group.as_deref())?, values })
+        }
+        Quantity::Ground(reading) => {
+            let (group, with) = (group(reading.group.as_deref())?, group(reading.with.as_deref())?);
+            Box::new(OfGround { group, with, reading: reading.clone(), values: Values::new(reading.statistic) })
         }
         Quantity::Contacts(reading) => {
             Box::new(OfContacts { reading: reading.clone(), before: Vec::new(), events: [0; 3] })
@@ -441,6 +453,7 @@ impl<R: Scalar, const D: usize> Reader<R, D> for OfInside {
 struct OfShare {
     column: usize,
     state: usize,
+    group: Option<usize>,
     reading: ShareReading,
     mean: Mean,
 }
@@ -452,7 +465,7 @@ impl<R: Scalar, const D: usize> Reader<R, D> for OfShare {
         }
         let state = &look.world.frame().columns.state[self.column];
         let members = match self.reading.of {
-            Whose::Everyone => (0..look.rows.len()).collect(),
+            Whose::Everyone => look.members(self.group),
             Whose::LargestCluster => look.clusters(self.reading.linking_distance).largest(),
         };
         for k in members {
@@ -467,19 +480,69 @@ impl<R: Scalar, const D: usize> Reader<R, D> for OfShare {
 
 struct OfColumn {
     column: usize,
+    group: Option<usize>,
     scale: f64,
+    /// Over all members and looks.
     mean: Mean,
+    /// The means of the looks.
+    values: Values,
 }
 
 impl<R: Scalar, const D: usize> Reader<R, D> for OfColumn {
     fn look(&mut self, look: &Look<'_, R, D>) {
         if look.window {
             let state = &look.world.frame().columns.state[self.column];
-            look.rows.iter().for_each(|&row| self.mean.add(Some(state[row].to_f64())));
+            let mut now = Mean::default();
+            for k in look.members(self.group) {
+                let value = state[look.rows[k]].to_f64();
+                self.mean.add(Some(value));
+                now.add(Some(value));
+            }
+            self.values.add(now.value());
         }
     }
     fn value(&self, _: &World<R, D>) -> Option<f64> {
-        self.mean.value().map(|mean| self.scale * mean)
+        // a look at few members does not count as much as one at many
+        let value = if self.values.statistic == Statistic::Mean { self.mean.value() } else { self.values.value() };
+        value.map(|value| self.scale * value)
+    }
+}
+
+struct OfGround {
+    group: Option<usize>,
+    with: Option<usize>,
+    reading: GroundReading,
+    values: Values,
+}
+
+impl<R: Scalar, const D: usize> Reader<R, D> for OfGround {
+    fn look(&mut self, look: &Look<'_, R, D>) {
+        if look.window {
+            let places = |group| look.members(group).into_iter().map(|k| look.positions[k]);
+            let (own, other) = (places(self.group), places(self.with));
+            self.values.add(ground::value(self.reading.quantity, own, other, self.reading.cell));
+        }
+    }
+    fn value(&self, _: &World<R, D>) -> Option<f64> {
+        self.values.value()
+    }
+}
+
+struct OfAlive {
+    group: Option<usize>,
+    values: Values,
+}
+
+impl<R: Scalar, const D: usize> Reader<R, D> for OfAlive {
+    fn look(&mut self, look: &Look<'_, R, D>) {
+        if look.window {
+            let frame = look.world.frame();
+            let all = self.group.map_or(frame.columns.len(), |group| frame.groups[group].count as usize);
+            self.values.add((all > 0).then(|| look.members(self.group).len() as f64 / all as f64));
+        }
+    }
+    fn value(&self, _: &World<R, D>) -> Option<f64> {
+        self.values.value()
     }
 }
 

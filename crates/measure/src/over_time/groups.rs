@@ -1,6 +1,7 @@
 //! What metrics of groups' ground share.
 
 use crate::{Bounds, Parameter, Sample};
+use space::Vector;
 use std::collections::BTreeSet;
 
 /// How fine ground is divided.
@@ -14,5 +15,10 @@ pub(super) const CELL_SIZE: Parameter = Parameter {
 
 /// The cells in which a group has members, by their numbers along the axes.
 pub(super) fn cells<const D: usize>(sample: &Sample<D>, size: f64) -> BTreeSet<[i64; D]> {
-    sample.positions().iter().map(|place| place.0.map(|x| (x / size).floor() as i64)).collect()
+    sample.positions().iter().map(|place| cell_of(*place, size)).collect()
+}
+
+/// The cell of a place, by its numbers along the axes.
+pub(super) fn cell_of<const D: usize>(place: Vector<f64, D>, size: f64) -> [i64; D] {
+    place.0.map(|x| (x / size).floor() as i64)
 }

@@ -33,6 +33,7 @@ over_time! {
     coverage::Coverage;
     domains_of_danger::DomainsOfDanger;
     occupied_area::OccupiedArea;
+    occupancy::Occupancy;
     group_overlap::GroupOverlap;
     group_membership::GroupMembership;
     nearest_neighbours::NearestNeighbours;

@@ -1,6 +1,7 @@
 //! One group's way through the stages: chosen once, called once per block of agents.
 
 use crate::engine::coarse::Coarse;
+use crate::engine::conduct::Conduct;
 use crate::motion::{
     Abreast, Agents, Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Me, MeLanes, Model, Motion, NearItem,
     NearObstacle, Other, Percepts, Rough, Single, Start, Stream, Summed, Trace, WIDEST, splat,
@@ -59,7 +60,7 @@ pub(crate) struct View<'a, R, const D: usize> {
 
 impl<R: Scalar, const D: usize> View<'_, R, D> {
     #[inline(always)]
-    fn dead(&self, columns: &Columns<R, D>, row: usize) -> bool {
+    pub(crate) fn dead(&self, columns: &Columns<R, D>, row: usize) -> bool {
         self.mortality.is_some_and(|c| columns.state[c][row] <= R::ZERO)
     }
     /// The unit heading of a row of `now`.
@@ -121,6 +122,10 @@ pub(crate) struct Stages<R, const D: usize> {
     pub(crate) reach: Reach<R>,
     pub(crate) sensing: Sensing<R>,
     pub(crate) obstacle_reach: Option<R>,
+    /// What it does beside its law.
+    pub(crate) conduct: Option<Conduct<R>>,
+    /// Whether a motion that is no number is not made.
+    pub(crate) guarded: bool,
     pub(crate) mobility: Mobility<R>,
     pub(crate) noise: MotionNoise<R>,
     pub(crate) dt: R,
@@ -455,6 +460,9 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     ) -> (Vector<R, D>, Vector<R, D>) {
         let (position, velocity) = (view.now.position(row), view.now.velocity(row));
         let mut motion = wanted;
+        if let Some(conduct) = &self.conduct {
+            motion = conduct.motion(view, row, motion, dt, body);
+        }
         if !matches!(self.mobility, Mobility::Ideal) {
             motion = self.mobility.perform(velocity, motion, dt, body);
         }
@@ -464,7 +472,8 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
         let place = view.space.place(position + motion.displacement);
         // a motion that is not a number of finite size is not made
-        if place.finite() && motion.velocity.finite() { (place, motion.velocity) } else { (position, velocity) }
+        let fine = place.finite() && motion.velocity.finite() || !self.guarded;
+        if fine { (place, motion.velocity) } else { (position, velocity) }
     }
     /// Errors of execution, where there are any: their draws, the angle (rad), and the factor of the speed.
     #[inline(always)]
@@ -526,16 +535,19 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             }
         }
     }
+    /// The item of food nearest to a place.
+    #[inline(always)]
+    fn item(view: &View<'_, R, D>, place: Vector<R, D>) -> Option<NearItem<R, D>> {
+        view.resources.and_then(|r| r.nearest(view.space, place)).map(|(item, offset)| NearItem { offset, item })
+    }
     #[inline(always)]
     fn around<'a>(
         &self,
         view: &View<'a, R, D>,
         row: usize,
-        place: Vector<R, D>,
+        item: Option<NearItem<R, D>>,
         obstacles: &'a [NearObstacle<R, D>],
     ) -> Around<'a, R, D> {
-        let item =
-            view.resources.and_then(|r| r.nearest(view.space, place)).map(|(item, offset)| NearItem { offset, item });
         Around {
             obstacles,
             item,
@@ -1178,7 +1190,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             velocity: view.now.velocity(row),
             heading,
             own: &mut scratch.own,
-            around: stages.around(view, row, position, &obstacles),
+            around: stages.around(view, row, Stages::item(view, position), &obstacles),
             trace,
         };
         let found = then.by(&mut me, &seen, &draws);
@@ -1626,6 +1638,11 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
                 count = count.min(grid.line(line).end - row);
                 count = grid.together(view.now, row, count);
             }
+            if !(row..row + count).any(|row| self.listed.stages.mine(view.now.id[row])) {
+                // a block of other groups
+                row += count;
+                continue;
+            }
             let place: [L; D] = core::array::from_fn(|a| L::load(&view.now.position[a][row..]));
             let velocity: [L; D] = core::array::from_fn(|a| L::load(&view.now.velocity[a][row..]));
             let heading =
@@ -1656,12 +1673,16 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
                 }
                 first = uniforms(view.seed, Purpose::Behaviour, view.step, &counter);
             }
+            let mut item = [-R::ONE; WIDEST];
+            if let Some(resources) = view.resources {
+                resources.nearest_abreast(view.space, &place).store(&mut item);
+            }
             let stages = &self.listed.stages;
             if stages.plain && view.mortality.is_none() && view.bodies.len() == 1 {
-                self.finish_block::<L>(view, row, count, &each, &first, out, scratch);
+                self.finish_block::<L>(view, row, count, &each, &first, &item, out, scratch);
             } else {
                 for k in 0..count {
-                    self.finish(view, row + k, &each[k], first[k], out, scratch);
+                    self.finish(view, row + k, &each[k], first[k], item[k], out, scratch);
                 }
             }
             row += count;
@@ -1677,6 +1698,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         count: usize,
         sums: &[<M::Sums<L> as LaneSums<R, L>>::One; WIDEST],
         first: &[f64; WIDEST],
+        item: &[R; WIDEST],
         out: &Writer<'_, R, D>,
         scratch: &mut Scratch<R, D>,
     ) {
@@ -1684,7 +1706,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         let mut velocity = [[R::ZERO; WIDEST]; D];
         let mut displacement = [[R::ZERO; WIDEST]; D];
         for k in 0..count {
-            let wanted = self.conclude(view, row + k, &sums[k], first[k], scratch);
+            let wanted = self.conclude(view, row + k, &sums[k], first[k], Self::item(view, row + k, item[k]), scratch);
             for a in 0..D {
                 velocity[a][k] = wanted.velocity.0[a];
                 displacement[a][k] = wanted.displacement.0[a];
@@ -1711,6 +1733,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         row: usize,
         sums: &M::Sums<R>,
         first: f64,
+        item: R,
         out: &Writer<'_, R, D>,
         scratch: &mut Scratch<R, D>,
     ) {
@@ -1723,7 +1746,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             unsafe { out.write(row, view.now.position(row), view.now.velocity(row)) };
             return;
         }
-        let wanted = self.conclude(view, row, sums, first, scratch);
+        let wanted = self.conclude(view, row, sums, first, Self::item(view, row, item), scratch);
         let mut body = core::mem::take(&mut scratch.body);
         let (place, velocity) = stages.perform(view, row, wanted, stages.dt, &mut body);
         // SAFETY: as above.
@@ -1735,6 +1758,17 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         scratch.body = body;
     }
 
+    /// An item by its number, as a row sees it; none where the number is negative.
+    #[inline(always)]
+    fn item(view: &View<'_, R, D>, row: usize, number: R) -> Option<NearItem<R, D>> {
+        if number < R::ZERO {
+            return None;
+        }
+        let item = number.to_f64() as usize;
+        let place = view.resources.and_then(|resources| resources.place.get(item))?;
+        Some(NearItem { offset: view.space.offset(view.now.position(row), *place), item: item as u32 })
+    }
+
     #[inline(always)]
     fn conclude(
         &self,
@@ -1742,6 +1776,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         row: usize,
         sums: &M::Sums<R>,
         first: f64,
+        item: Option<NearItem<R, D>>,
         scratch: &mut Scratch<R, D>,
     ) -> Motion<R, D> {
         let stages = &self.listed.stages;
@@ -1758,7 +1793,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             velocity: view.now.velocity(row),
             heading: view.heading_of(row),
             own: &mut scratch.own,
-            around: stages.around(view, row, position, &scratch.obstacles),
+            around: stages.around(view, row, item, &scratch.obstacles),
             trace: None,
         };
         let motion = self.law().finish(&mut me, sums, &draws);
@@ -1949,6 +1984,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
             law.gather::<R>(&mut sums, &me, &to, squares[k], &other, &sets);
         }
         scratch.own = own;
-        kernel.conclude(view, row, &sums, -1.0, scratch)
+        let item = Stages::item(view, view.now.position(row));
+        kernel.conclude(view, row, &sums, -1.0, item, scratch)
     }
 }

@@ -3,6 +3,7 @@
 mod checkpoint;
 mod coarse;
 mod compiled;
+mod conduct;
 mod contacts;
 pub mod explain;
 mod kernel;

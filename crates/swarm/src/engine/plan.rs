@@ -1,5 +1,6 @@
 //! What a world is built from.
 
+use crate::conduct::Conduct;
 use crate::engine::{MotionNoise, Sensing};
 use crate::parameters::{ParameterError, Values};
 use crate::physics::{Contact, Mobility};
@@ -116,6 +117,8 @@ pub struct GroupPlan<R, const D: usize> {
     pub sensing: Sensing<R>,
     /// Perception functions in place of the model's own, by the name of the set.
     pub sets: Vec<(String, Perception<R, D>)>,
+    /// What it does beside its law.
+    pub conduct: Option<Conduct<R>>,
     /// What a body can do.
     pub mobility: Mobility<R>,
     /// What happens on contact; `None`: as the model says.
@@ -137,6 +140,7 @@ impl<R: Real, const D: usize> GroupPlan<R, D> {
             placement,
             sensing: Sensing::default(),
             sets: Vec::new(),
+            conduct: None,
             mobility: Mobility::Ideal,
             contact: None,
             radius: None,

@@ -58,8 +58,16 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 let part = (rows * task / tasks)..(rows * (task + 1) / tasks);
                 // SAFETY: tasks own disjoint rows.
                 unsafe { out.keep(&self.now, part.clone()) };
-                for group in &self.groups {
-                    group.kernel.sweep(&view, part.clone(), &out, scratch);
+                for (group, range) in self.groups.iter().zip(&self.ranges) {
+                    let mut rows = part.clone();
+                    if self.grid.is_none() {
+                        // rows that are not sorted are ids, and a group's ids follow each other
+                        rows.start = rows.start.max(range.first as usize);
+                        rows.end = rows.end.min((range.first + range.count) as usize);
+                    }
+                    if rows.start < rows.end {
+                        group.kernel.sweep(&view, rows, &out, scratch);
+                    }
                 }
             });
         }

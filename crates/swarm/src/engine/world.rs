@@ -1,8 +1,10 @@
 //! The world: columns, index, obstacles, resources, groups.
 
+use crate::conduct::stored;
 use crate::detection::readings::ErrorCount;
 use crate::engine::coarse::Coarse;
 use crate::engine::compiled::Compiled;
+use crate::engine::conduct::Conduct;
 use crate::engine::kernel::{Close, Index, Kernel, Scratch, Sensing, Stages, View};
 use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
 use crate::models::{self, Catalogue, Models};
@@ -169,14 +171,33 @@ where
         for group in &plan.groups {
             let model = prepare::<R, D>(group)?;
             let own: Vec<usize> = model.columns.iter().map(&mut column).collect();
-            let body: Vec<usize> = group.mobility.columns().iter().map(&mut column).collect();
+            let mut body: Vec<usize> = group.mobility.columns().iter().map(&mut column).collect();
+            let conduct = group.conduct.iter().flat_map(|conduct| conduct.columns());
+            body.extend(conduct.map(&mut column));
+            let stores = plan.resources.iter().flat_map(|resources| &resources.stores);
+            for at in stores.map(|store| column(&stored(&store.column))) {
+                if !own.contains(&at) && !body.contains(&at) {
+                    body.push(at);
+                }
+            }
             prepared.push((model, own, body));
         }
+        let mut next = 0u32;
+        let all: Vec<GroupRange> = plan
+            .groups
+            .iter()
+            .map(|group| {
+                let first = next;
+                next += group.count as u32;
+                GroupRange { name: group.name.clone(), first, count: group.count as u32 }
+            })
+            .collect();
+        let find = |name: &str| declared.iter().position(|c| c.name == name);
         let dt = prepared.first().map_or(R::ONE, |(model, ..)| model.time_step);
         let obstacle_reach = prepared.iter().filter_map(|(m, ..)| m.obstacle_reach).fold(R::ZERO, Real::most);
-        let (mut groups, mut ranges, mut bodies) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut groups, mut bodies) = (Vec::new(), Vec::new());
         let mut first = 0u32;
-        let mut identity = false;
+        let (mut identity, mut guarded) = (false, true);
         let mut reach: Option<Reach<R>> = None;
         let mut headings = false;
         for (group, (model, own, body)) in plan.groups.iter().zip(prepared) {
@@ -234,6 +255,12 @@ where
             };
             identity |= needs.identity;
             let contact = group.contact.unwrap_or(model.contact);
+            let own_range = GroupRange { name: group.name.clone(), first, count: group.count as u32 };
+            let place = group.mobility.columns().len();
+            let conduct = group.conduct.as_ref().map(|plan| Conduct::new(plan, &all, own_range, place, find));
+            let conduct = conduct.transpose().map_err(|problem| in_group(group, problem))?;
+            identity |= conduct.is_some();
+            guarded &= model.guarded;
             let perfect = matches!(&sensing, Sensing::Ideal(ideal) if ideal.is_perfect());
             let stages = Stages {
                 rings: if perfect { Rings::of(&sets) } else { None },
@@ -246,11 +273,14 @@ where
                 reach: set_reach,
                 sensing,
                 obstacle_reach: model.obstacle_reach,
+                conduct,
+                guarded: model.guarded,
                 mobility: group.mobility,
                 noise: group.noise,
                 dt,
                 radius,
                 plain: group.mobility == Mobility::Ideal
+                    && group.conduct.is_none()
                     && group.noise.execution_direction == R::ZERO
                     && group.noise.execution_speed == R::ZERO,
             };
@@ -265,7 +295,6 @@ where
                 meets: model.bodies_meet,
                 steps: model.velocity_is_step,
             });
-            ranges.push(GroupRange { name: group.name.clone(), first, count: group.count as u32 });
             bodies.push((first, radius));
             first += group.count as u32;
         }
@@ -275,10 +304,7 @@ where
         let obstacles = Obstacles::new(plan.obstacles.clone(), periods, margin)
             .map_err(|error| WorldError::World(format!("obstacles: {error}")))?;
         let resources = match plan.resources.clone() {
-            Some(resources) => {
-                let find = |name: &str| declared.iter().position(|c| c.name == name);
-                Some(Resources::new(resources, find).map_err(WorldError::World)?)
-            }
+            Some(resources) => Some(Resources::new(resources, &all, find).map_err(WorldError::World)?),
             None => None,
         };
         let body_contacts = groups
@@ -297,7 +323,8 @@ where
             IndexChoice::Automatic => agents >= if sequential { 64 } else { CELLS_FROM },
             IndexChoice::Cells => agents > 0,
         };
-        if !cells || delayed {
+        // a place that is no number is in no cell
+        if !cells || delayed || !guarded {
             reach = None;
         }
         let associated = groups.iter().find_map(|g| match &g.kernel.stages().sensing {
@@ -316,7 +343,7 @@ where
             needs_rows: resources.is_some() || body_contacts || identity,
             resources,
             groups,
-            ranges,
+            ranges: all,
             now: Columns::new(agents, declared.len()),
             next: Columns::new(agents, declared.len()),
             heading: core::array::from_fn(|_| Vec::new()),
@@ -414,8 +441,17 @@ where
                 for (&c, &value) in own.iter().zip(&columns) {
                     self.now.state[c][row] = value;
                 }
-                if let Some(&facing) = kernel.stages().body_columns.first() {
+                if let (false, Some(&facing)) =
+                    (group.mobility.columns().is_empty(), kernel.stages().body_columns.first())
+                {
                     self.now.state[facing][row] = moving.angle();
+                }
+                for store in plan.resources.iter().flat_map(|resources| &resources.stores) {
+                    let at = self.declared.iter().position(|column| column.name == store.column);
+                    let told = matches!(&group.placement, Placement::Given(start) if start.columns.contains_key(&store.column));
+                    if let Some(at) = at.filter(|at| !told && kernel.stages().body_columns.contains(at)) {
+                        self.now.state[at][row] = store.start;
+                    }
                 }
                 self.now.set_position(row, self.space.place(position));
                 self.now.set_velocity(row, moving);

@@ -232,7 +232,7 @@ mod tests {
                 within: 0.0,
                 gains: Vec::new(),
                 respawn: Respawn::Never,
-                metabolism: None,
+                ..ResourcePlan::default()
             });
             oracle.step(&[([0.0, 0.0], [0.0, 0.0])]).velocity(0)[0]
         };

@@ -81,7 +81,7 @@ parameters! {
         drag: R = 0.1, "gamma", "1/time", NonNegative, Ours;
         /// Length of a step.
         time_step alias "dt": R = 1.5, "Dt", "time", Positive, Source;
-        /// Whether denominators have a floor and weights a bound; false, for tests only, is the broken law of the study.
+        /// Whether denominators have a floor, weights a bound, motions must be numbers; false, for tests only, is the broken law.
         safeguards: bool = true, "-", "-", Any, Ours;
     }
 }
@@ -167,6 +167,9 @@ impl<R: Scalar> Law<R> for CompetingFlocks<R> {
     }
     fn contact(&self) -> Contact {
         Contact::Clamp
+    }
+    fn guarded(&self) -> bool {
+        self.safeguards
     }
     fn check(&self, members: usize) -> Result<(), String> {
         let chromosomes = match &self.chromosome {
@@ -361,12 +364,8 @@ mod tests {
                 Gain { column: "health".into(), amount: 10.0, capacity: 100.0 },
             ],
             respawn: Respawn::After(0.0),
-            metabolism: Some(Metabolism {
-                energy: "energy".into(),
-                cost: 1.0,
-                health: "health".into(),
-                starvation: 1.0,
-            }),
+            metabolism: Some(Metabolism::default()),
+            ..ResourcePlan::default()
         }
     }
 

@@ -27,6 +27,7 @@ pub struct Prepared<R, const D: usize> {
     pub(crate) contact: Contact,
     pub(crate) bodies_meet: bool,
     pub(crate) velocity_is_step: bool,
+    pub(crate) guarded: bool,
     /// For each member.
     pub(crate) initial_speeds: Vec<R>,
     /// Finishes the kernel when the stages are resolved.
@@ -81,6 +82,7 @@ fn prepared<R: Scalar, const D: usize, M: Law<R>>(
         contact: model.contact(),
         bodies_meet: model.bodies_meet(),
         velocity_is_step: model.velocity_is_step(),
+        guarded: model.guarded(),
         initial_speeds: (0..members).map(|member| model.initial_speed_of(member)).collect(),
         stream_reach,
         build,

@@ -247,7 +247,9 @@ fn what_happens_after_the_motion_is_told_and_taken_back() {
                     cost: 20.0,
                     health: "health".into(),
                     starvation: 3.0,
+                    ..Default::default()
                 }),
+                ..Default::default()
             });
             world(p)
         };

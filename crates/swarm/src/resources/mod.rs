@@ -1,11 +1,20 @@
 //! Resources that agents consume, and what consumption and its lack do to them.
 
+mod metabolism;
+mod near;
+mod predation;
+
+pub use metabolism::{Drafting, Metabolism};
+pub use predation::Predation;
+
 use crate::engine::{mask_of, minimal_lanes};
 use crate::motion::{WIDEST, dot};
+use near::Near;
+use predation::Hunt;
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
 use space::obstacles::has_come;
 use space::random::{Purpose, uniform, unit_vector};
-use space::{Columns, Real, Space, Vector};
+use space::{Columns, GroupRange, Real, Space, Vector};
 
 /// What a consumed item does to a declared column of its consumer.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,17 +36,22 @@ pub enum Respawn {
     After(f64),
 }
 
-/// What it costs to live.
+/// A declared column that all agents of a world have, whatever their models declare.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Metabolism<R> {
-    /// Declared column that pays.
-    pub energy: String,
-    /// Paid per time.
-    pub cost: R,
-    /// Declared column from which what energy cannot pay is taken; an agent at 0 is dead.
-    pub health: String,
-    /// Health taken per unpaid unit of energy.
-    pub starvation: R,
+pub struct Store<R> {
+    /// Its name.
+    pub column: String,
+    /// Its value at the start, in groups whose model does not declare it.
+    pub start: R,
+}
+
+/// What mates get of a meal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sharing<R> {
+    /// Living members of the consumer's group that are nearer to it than this get some.
+    pub within: R,
+    /// Their share of what the consumer gets, each.
+    pub share: R,
 }
 
 /// The plan of the resources of a world.
@@ -51,8 +65,35 @@ pub struct ResourcePlan<R, const D: usize> {
     pub gains: Vec<Gain<R>>,
     /// Its return.
     pub respawn: Respawn,
+    /// What mates near by get of it.
+    pub sharing: Option<Sharing<R>>,
+    /// Columns that all agents have.
+    pub stores: Vec<Store<R>>,
     /// Cost of living.
     pub metabolism: Option<Metabolism<R>>,
+    /// Who harms whom.
+    pub predation: Vec<Predation<R>>,
+}
+
+impl<R: Real, const D: usize> Default for ResourcePlan<R, D> {
+    /// Nothing to consume, and nothing to pay.
+    fn default() -> Self {
+        Self {
+            items: Vec::new(),
+            within: R::ZERO,
+            gains: Vec::new(),
+            respawn: Respawn::Never,
+            sharing: None,
+            stores: Vec::new(),
+            metabolism: None,
+            predation: Vec::new(),
+        }
+    }
+}
+
+/// The group of an id.
+fn group_of(groups: &[GroupRange], id: u32) -> usize {
+    groups.partition_point(|group| group.first + group.count <= id)
 }
 
 /// The resources of a running world.
@@ -62,6 +103,8 @@ pub struct Resources<R, const D: usize> {
     gains: Vec<usize>,
     energy: usize,
     health: Option<usize>,
+    groups: Vec<GroupRange>,
+    hunts: Vec<Hunt>,
     /// Place of each item.
     pub place: Vec<Vector<R, D>>,
     /// Time at which an absent item returns; `None` while it is there.
@@ -75,11 +118,15 @@ pub struct Resources<R, const D: usize> {
 }
 
 impl<R: Real, const D: usize> Resources<R, D> {
-    /// Resolves the plan's columns.
+    /// Resolves the plan's columns and groups.
     ///
     /// # Errors
-    /// A sentence that names a column no model declares, or a value that cannot be.
-    pub fn new(plan: ResourcePlan<R, D>, column: impl Fn(&str) -> Option<usize>) -> Result<Self, String> {
+    /// A sentence that names a column no model declares, a group that is not there, or a value that cannot be.
+    pub fn new(
+        plan: ResourcePlan<R, D>,
+        groups: &[GroupRange],
+        column: impl Fn(&str) -> Option<usize>,
+    ) -> Result<Self, String> {
         let find = |name: &str| {
             column(name)
                 .ok_or_else(|| format!("resources change the column `{name}`, which no model of this world declares"))
@@ -91,10 +138,26 @@ impl<R: Real, const D: usize> Resources<R, D> {
             return Err("an item's place is not a finite point".into());
         }
         let gains = plan.gains.iter().map(|gain| find(&gain.column)).collect::<Result<_, _>>()?;
-        let (energy, health) = match &plan.metabolism {
-            Some(m) => (find(&m.energy)?, Some(find(&m.health)?)),
+        if let Some(sharing) = &plan.sharing
+            && ![sharing.within, sharing.share].iter().all(|&value| value >= R::ZERO && value.finite())
+        {
+            return Err("what mates get of resources must be 0 or more, within a distance of 0 or more".into());
+        }
+        let (energy, mut health) = match &plan.metabolism {
+            Some(m) => {
+                m.check()?;
+                (find(&m.energy)?, Some(find(&m.health)?))
+            }
             None => (0, None),
         };
+        for predation in &plan.predation {
+            let column = find(&predation.health)?;
+            if health.is_some_and(|other| other != column) {
+                return Err("resources: metabolism and predation take from different columns of health".into());
+            }
+            health = Some(column);
+        }
+        let hunts = plan.predation.iter().map(|predation| predation.resolved(groups)).collect::<Result<_, _>>()?;
         let items = plan.items.len();
         Ok(Self {
             place: plan.items.clone(),
@@ -102,6 +165,8 @@ impl<R: Real, const D: usize> Resources<R, D> {
             gains,
             energy,
             health,
+            groups: groups.to_vec(),
+            hunts,
             absent_until: vec![None; items],
             consumer: vec![None; items],
             consumed: 0,
@@ -125,7 +190,26 @@ impl<R: Real, const D: usize> Resources<R, D> {
         }
         self.place.get(nearest).map(|&place| (nearest as u32, space.offset(from, place)))
     }
-    /// Consumption in item order, then metabolism and death, after everyone moved. `row_of` gives rows by id.
+    /// For agents abreast, the number of the item that [`Self::nearest`] finds for each; negative where there is none.
+    #[inline(always)]
+    pub(crate) fn nearest_abreast<L: Lanes<R>>(&self, space: &Space<R, D>, from: &[L; D]) -> L {
+        let (mut nearest, mut least) = (L::splat(-R::ONE), L::splat(R::INFINITY));
+        for (item, place) in self.place.iter().enumerate() {
+            if self.absent_until[item].is_some() {
+                continue;
+            }
+            let mut offset = *from;
+            for a in 0..D {
+                offset[a] = minimal_lanes(space, a, L::splat(place.0[a]) - from[a]);
+            }
+            let squared = dot(&offset, &offset);
+            let nearer = squared.less(least);
+            nearest = L::choose(nearer, L::splat(R::count(item)), nearest);
+            least = L::choose(nearer, squared, least);
+        }
+        nearest
+    }
+    /// Consumption in item order, then predation, metabolism and death, after everyone moved.
     pub fn update(&mut self, space: &Space<R, D>, columns: &mut Columns<R, D>, seed: u64, step: u64, time: f64, dt: R) {
         for item in 0..self.place.len() {
             self.consumer[item] = None;
@@ -140,9 +224,9 @@ impl<R: Real, const D: usize> Resources<R, D> {
             let consumer = Consumer { space, columns, place, limit, health: self.health };
             let Some(row) = with_lanes(level(), consumer) else { continue };
             let id = columns.id[row];
-            for (gain, &column) in self.plan.gains.iter().zip(&self.gains) {
-                let value = &mut columns.state[column][row];
-                *value = (*value + gain.amount).least(gain.capacity.most(*value));
+            self.feed(columns, row, R::ONE);
+            if let Some(sharing) = self.plan.sharing {
+                self.share(sharing, space, columns, row);
             }
             self.consumer[item] = Some(id);
             self.consumed += 1;
@@ -159,17 +243,33 @@ impl<R: Real, const D: usize> Resources<R, D> {
                 Respawn::After(_) => self.place[item] = anew,
             }
         }
-        if let (Some(metabolism), Some(health)) = (&self.plan.metabolism, self.health) {
-            let cost = metabolism.cost * dt;
-            for row in 0..columns.len() {
-                if columns.state[health][row] <= R::ZERO {
-                    continue;
-                }
-                let energy = columns.state[self.energy][row];
-                let unpaid = (cost - energy).most(R::ZERO);
-                columns.state[self.energy][row] = (energy - cost).most(R::ZERO);
-                let left = columns.state[health][row] - unpaid * metabolism.starvation;
-                columns.state[health][row] = left.most(R::ZERO);
+        if let Some(health) = self.health {
+            for (predation, hunt) in self.plan.predation.iter().zip(&self.hunts) {
+                predation.bite(hunt, health, space, columns, dt);
+            }
+            if let Some(metabolism) = &self.plan.metabolism {
+                metabolism.pay((self.energy, health), space, columns, &self.groups, dt);
+            }
+        }
+    }
+    /// Gives a row a share of what an item gives.
+    fn feed(&self, columns: &mut Columns<R, D>, row: usize, share: R) {
+        for (gain, &column) in self.plan.gains.iter().zip(&self.gains) {
+            let value = &mut columns.state[column][row];
+            *value = (*value + gain.amount * share).least(gain.capacity.most(*value));
+        }
+    }
+    /// Gives mates near a consumer their share.
+    fn share(&self, sharing: Sharing<R>, space: &Space<R, D>, columns: &mut Columns<R, D>, consumer: usize) {
+        let own = group_of(&self.groups, columns.id[consumer]);
+        let (place, limit) = (columns.position(consumer), sharing.within * sharing.within);
+        for row in 0..columns.len() {
+            let near = row != consumer
+                && group_of(&self.groups, columns.id[row]) == own
+                && self.health.is_none_or(|health| columns.state[health][row] > R::ZERO)
+                && space.offset(place, columns.position(row)).length_squared() < limit;
+            if near {
+                self.feed(columns, row, sharing.share);
             }
         }
     }
@@ -241,15 +341,11 @@ mod tests {
             within: 5.0,
             gains: vec![Gain { column: "energy".into(), amount: 40.0, capacity: 100.0 }],
             respawn: Respawn::After(0.0),
-            metabolism: Some(Metabolism {
-                energy: "energy".into(),
-                cost: 1.0,
-                health: "health".into(),
-                starvation: 1.0,
-            }),
+            metabolism: Some(Metabolism::default()),
+            ..ResourcePlan::default()
         };
         let names = ["health", "energy"];
-        let resources = Resources::new(plan, |name| names.iter().position(|&n| n == name)).unwrap();
+        let resources = Resources::new(plan, &[], |name| names.iter().position(|&n| n == name)).unwrap();
         let mut columns = Columns::new(3, 2);
         columns.state[0][..3].fill(10.0);
         columns.state[1][..3].fill(70.0);
@@ -282,10 +378,94 @@ mod tests {
         assert_eq!(c.state[1][0], 0.25, "the dead pay nothing");
     }
 
+    fn changed(change: impl FnOnce(&mut ResourcePlan<f64, 2>)) -> (Resources<f64, 2>, Columns<f64, 2>) {
+        let (r, mut c) = world();
+        let mut plan = r.plan;
+        change(&mut plan);
+        let group = |name: &str, first, count| GroupRange { name: name.into(), first, count };
+        let names = ["health", "energy"];
+        let groups = [group("red", 0, 2), group("blue", 2, 1)];
+        c.state[0][..3].fill(50.0);
+        let find = |name: &str| names.iter().position(|&n| n == name);
+        (Resources::new(plan, &groups, find).unwrap(), c)
+    }
+
+    #[test]
+    fn mates_near_the_eater_get_their_share() {
+        let (mut r, mut c) = changed(|plan| {
+            plan.metabolism = None;
+            plan.gains[0].capacity = 1000.0;
+            plan.sharing = Some(Sharing { within: 5.0, share: 0.25 });
+        });
+        r.update(&Space::walled([100.0, 100.0]), &mut c, 1, 0, 0.0, 1.0);
+        assert_eq!(r.consumer[0], Some(0));
+        assert_eq!(c.state[1][..3], [110.0, 80.0, 70.0], "a mate gets a quarter, the stranger nothing");
+        let (mut far, mut c) = changed(|plan| {
+            plan.metabolism = None;
+            plan.gains[0].capacity = 1000.0;
+            plan.sharing = Some(Sharing { within: 1.0, share: 0.25 });
+        });
+        far.update(&Space::walled([100.0, 100.0]), &mut c, 1, 0, 0.0, 1.0);
+        assert_eq!(c.state[1][..3], [110.0, 70.0, 70.0]);
+    }
+
+    #[test]
+    fn motion_costs_and_drafting_saves_some_of_it() {
+        let drafting = Drafting { within: 10.0, ahead: 0.5, aligned: 0.5, saving: 0.5 };
+        let run = |drafting: Option<Drafting<f64>>, turn: bool| {
+            let (mut r, mut c) = changed(|plan| {
+                plan.items.clear();
+                plan.metabolism = Some(Metabolism { motion: 0.5, drafting, ..Metabolism::default() });
+            });
+            c.state[1][..3].fill(70.0);
+            // 1 follows 0; 2, of the other group, follows both
+            c.set_position(0, Vector([20.0, 0.0]));
+            c.set_position(1, Vector([15.0, 0.5]));
+            c.set_position(2, Vector([10.0, 0.0]));
+            let ahead = if turn { Vector([0.0, 2.0]) } else { Vector([2.0, 0.0]) };
+            c.set_velocity(0, ahead);
+            c.set_velocity(1, Vector([2.0, 0.0]));
+            c.set_velocity(2, Vector([2.0, 0.0]));
+            r.update(&Space::walled([100.0, 100.0]), &mut c, 1, 0, 0.0, 1.0);
+            [c.state[1][0], c.state[1][1], c.state[1][2]]
+        };
+        assert_eq!(run(None, false), [67.0; 3], "1 for the time, 0.5 x 4 for the speed");
+        assert_eq!(run(Some(drafting), false), [67.0, 68.0, 67.0], "half of it for who follows a mate");
+        assert_eq!(run(Some(drafting), true), [67.0; 3], "not behind one who goes elsewhere");
+    }
+
+    #[test]
+    fn hunters_harm_the_nearest_prey_and_prey_within_reach_hit_back() {
+        let (mut r, mut c) = changed(|plan| {
+            plan.items.clear();
+            plan.metabolism = None;
+            plan.predation = vec![Predation {
+                hunters: "blue".into(),
+                prey: vec!["red".into()],
+                health: "health".into(),
+                within: 5.0,
+                damage: 8.0,
+                rebuttal: 3.0,
+            }];
+        });
+        c.set_position(1, Vector([3.0, 0.0]));
+        r.update(&Space::walled([100.0, 100.0]), &mut c, 1, 0, 0.0, 0.5);
+        assert_eq!(c.state[0][..3], [46.0, 50.0, 47.0], "the nearest loses 4, the hunter 1.5 for each of two");
+        c.state[0][0] = 0.0;
+        r.update(&Space::walled([100.0, 100.0]), &mut c, 1, 1, 0.5, 0.5);
+        assert_eq!(c.state[0][..3], [0.0, 46.0, 45.5], "the dead are left alone, and harm nobody");
+        let text = Resources::new(
+            ResourcePlan { predation: r.plan.predation.clone(), ..ResourcePlan::<f64, 2>::default() },
+            &[GroupRange { name: "blues".into(), first: 0, count: 1 }],
+            |_| Some(0),
+        );
+        assert!(text.unwrap_err().contains("did you mean `blues`?"));
+    }
+
     #[test]
     fn an_unknown_column_is_named() {
         let (r, _) = world();
-        let text = Resources::new(r.plan, |_| None).unwrap_err();
+        let text = Resources::new(r.plan, &[], |_| None).unwrap_err();
         assert!(text.contains("`energy`"), "{text}");
     }
 }
