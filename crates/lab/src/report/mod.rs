@@ -20,6 +20,7 @@ pub(crate) use drawing::TIMES;
 pub(crate) use drawing::bounds;
 pub(crate) use number::number as short;
 
+mod of_members;
 pub mod of_run;
 pub mod of_tracks;
 
