@@ -558,7 +558,8 @@ pub(crate) fn fitting_side(
     Ok((low * high).sqrt())
 }
 
-fn start<R: swarm::parameters::Scalar, const D: usize>(
+/// A world of a model with its defaults, uniform in a box of this side: in open space, or on a ring twice as long.
+pub(crate) fn start<R: swarm::parameters::Scalar, const D: usize>(
     entry: &Entry,
     agents: usize,
     side: f64,

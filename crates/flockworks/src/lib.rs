@@ -15,6 +15,7 @@ pub mod json;
 pub mod kinds;
 pub mod metrics;
 pub mod models;
+pub mod picture;
 pub mod plain;
 pub mod run;
 pub mod step;

@@ -43,6 +43,9 @@ pub struct ModelsOptions {
     /// Form of the output.
     #[arg(long, value_enum, default_value = "text")]
     pub format: Format,
+    /// Draw a typical run of the model instead, as SVG.
+    #[arg(long, requires = "id", conflicts_with = "format")]
+    pub picture: bool,
 }
 
 /// Prints the table of models, or one model's card.
@@ -54,6 +57,7 @@ pub fn models(options: &ModelsOptions, out: &mut dyn Write) -> Result<(), Fault>
         Some(id) => {
             let entry = model(id)?;
             match options.format {
+                _ if options.picture => crate::picture::typical_run(entry)?,
                 Format::Text => card_text(entry),
                 Format::Md => card_markdown(entry),
                 Format::Json => pretty(&card_json(entry)),

@@ -357,6 +357,27 @@ fn the_shipped_studies_have_their_cells() {
     assert!(said.contains("281 cells, 236 different conditions, 23600 trials"), "{said}{}", text(&check.stderr));
 }
 
+/// The case studies are as large as their sources say, and every model but those of other dimensions is in the last.
+#[test]
+fn the_shipped_case_studies_have_their_cells() {
+    let shipped = |name: &str| format!("{}/../../studies/{name}", env!("CARGO_MANIFEST_DIR"));
+    for (name, said) in [
+        ("perception/trials.toml", "90 cells, 90 different conditions, 630 trials"),
+        ("abstracted/simulations.toml", "16 cells, 16 different conditions, 160 trials"),
+        ("abstracted/robots.toml", "4 cells, 4 different conditions"),
+        ("cross/all.toml", "496 cells, 496 different conditions"),
+    ] {
+        let check = ran(&["check", &shipped(name)]);
+        assert!(text(&check.stdout).contains(said), "{}{}", text(&check.stdout), text(&check.stderr));
+    }
+    let parts = std::fs::read_dir(shipped("cross")).unwrap().map(|entry| entry.unwrap().path());
+    let parts: String = parts.filter_map(|path| std::fs::read_to_string(path).ok()).collect();
+    for entry in swarm::models::LIST.iter().filter(|entry| entry.dimensions.contains(&2) && entry.card.id != "composed")
+    {
+        assert!(parts.contains(&format!("[factor.model.level.{}]", entry.card.id)), "{}", entry.card.id);
+    }
+}
+
 #[test]
 fn statements_that_must_hold_decide_how_it_ends() {
     let folder = fresh("must-hold");

@@ -1,4 +1,4 @@
-//! `cargo xtask docs`: a page for each model and an index of them, the keys of files, the metrics, the stock terms: from what the code says
+//! `cargo xtask docs`: a page with a drawing for each model and an index of them, the keys of files, the metrics, the stock terms: from what the code says
 //! of itself.
 
 use crate::failure::Failure;
@@ -6,6 +6,7 @@ use crate::list::List;
 use crate::workspace::{Workspace, not_run};
 
 const FOLDER: &str = "docs/models";
+const PICTURES: &str = "docs/models/pictures";
 const INDEX: &str = "docs/models/README.md";
 const REFERENCE: &str = "docs/reference";
 const METRICS: &str = "docs/reference/metrics.md";
@@ -53,7 +54,8 @@ fn pages(workspace: &Workspace) -> Result<Vec<(String, String)>, Failure> {
     let mut pages = Vec::new();
     for id in &ids {
         let text = flockworks(workspace, &["models", id, "--format", "md"])?;
-        pages.push((format!("{FOLDER}/{id}.md"), format!("{NOTE}{text}")));
+        pages.push((format!("{FOLDER}/{id}.md"), format!("{NOTE}{}", with_picture(id, &text))));
+        pages.push((format!("{PICTURES}/{id}.svg"), flockworks(workspace, &["models", id, "--picture"])?));
     }
     let table = flockworks(workspace, &["models", "--format", "md"])?;
     let index = index(&ids, &table);
@@ -67,6 +69,14 @@ fn pages(workspace: &Workspace) -> Result<Vec<(String, String)>, Failure> {
     let terms = flockworks(workspace, &["terms", "--format", "md"])?;
     pages.push((TERMS.to_owned(), format!("{NOTE}# The stock terms of compositions\n\n{terms}")));
     Ok(pages)
+}
+
+/// A model's page with the drawing of a run before its first section.
+fn with_picture(id: &str, page: &str) -> String {
+    let about = "Thirty members with default parameters, from random places in a box (on a line: time goes down); lines are their ways, arrows \
+                 where they are at the end.";
+    let section = format!("## A typical run\n\n![A typical run of {id}](pictures/{id}.svg)\n\n{about}\n\n## ");
+    page.replacen("## ", &section, 1)
 }
 
 /// The table of models with a link in each row.
@@ -88,11 +98,14 @@ fn index(ids: &[String], table: &str) -> String {
 
 /// Pages of models that are not in the list any more.
 fn leftovers(workspace: &Workspace, pages: &[(String, String)]) -> Result<Vec<String>, Failure> {
-    if !workspace.path(FOLDER).is_dir() {
-        return Ok(Vec::new());
+    let mut files = Vec::new();
+    for (folder, ending) in [(FOLDER, ".md"), (PICTURES, ".svg")] {
+        if workspace.path(folder).is_dir() {
+            let names = workspace.entries(folder)?;
+            files.extend(names.iter().filter(|name| name.ends_with(ending)).map(|name| format!("{folder}/{name}")));
+        }
     }
-    let mut files: Vec<String> = workspace.entries(FOLDER)?.iter().map(|name| format!("{FOLDER}/{name}")).collect();
-    files.retain(|file| file.ends_with(".md") && pages.iter().all(|(page, _)| page != file));
+    files.retain(|file| pages.iter().all(|(page, _)| page != file));
     Ok(files)
 }
 
@@ -112,6 +125,15 @@ fn flockworks(workspace: &Workspace, arguments: &[&str]) -> Result<String, Failu
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_picture_stands_before_the_first_section() {
+        let page = with_picture("some", "# Some\n\nAbout.\n\n## Dimensions\n\n2\n\n## Reference\n");
+        let places = ["About.", "## A typical run", "pictures/some.svg", "## Dimensions", "## Reference"]
+            .map(|part| page.find(part));
+        assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{page}");
+        assert_eq!(page.matches("## Dimensions").count(), 1);
+    }
 
     #[test]
     fn the_index_links_each_model() {

@@ -1,6 +1,11 @@
 //! The plainest loops for a few laws: all pairs, 64-bit, two dimensions, default parameters, as a user would write them by hand.
 //! They are what `bench models` measures the engine against, and a second opinion on the laws.
 
+mod forces;
+mod headings;
+mod way_points;
+mod zones;
+
 /// Positions and velocities, one entry an agent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plain {
@@ -22,8 +27,75 @@ pub fn plain(model: &str) -> Option<PlainStep> {
         "cucker_smale_2007" => Some(cucker_smale_2007),
         "reynolds_opensteer" => Some(reynolds_opensteer),
         "viscido_snn" => Some(viscido_snn),
+        "czirok_1997" => Some(headings::czirok_1997),
+        "toner_tu_1998" => Some(headings::toner_tu_1998),
+        "smith_martin_2009" => Some(headings::smith_martin_2009),
+        "gregoire_2003_vectorial" => Some(headings::gregoire_2003_vectorial),
+        "boids_unit_heading" => Some(headings::boids_unit_heading),
+        "abm_flocking" => Some(headings::abm_flocking),
+        "codling_2007" => Some(headings::codling_2007),
+        "couzin_2005" => Some(zones::couzin_2005),
+        "conradt_2009" => Some(zones::conradt_2009),
+        "lopez_2012" => Some(zones::lopez_2012),
+        "tien_2004" => Some(zones::tien_2004),
+        "lukeman_2010" => Some(zones::lukeman_2010),
+        "dong_2012" => Some(forces::dong_2012),
+        "levine_2000" => Some(forces::levine_2000),
+        "dorsogna_2006" => Some(forces::dorsogna_2006),
+        "gazi_passino_2003" => Some(forces::gazi_passino_2003),
+        "hamilton_2d" => Some(way_points::hamilton_2d),
+        "viscido_lch" => Some(way_points::viscido_lch),
+        "lch_member_pose" => Some(way_points::lch_member_pose),
+        "lch_member_bearing" => Some(way_points::lch_member_bearing),
+        "warburton_lazarus_1991" => Some(way_points::warburton_lazarus_1991),
         _ => None,
     }
+}
+
+/// What a law makes of member `i`: its new position and velocity.
+fn each(now: &Plain, law: impl Fn(usize) -> ([f64; 2], [f64; 2])) -> Plain {
+    let mut next = now.clone();
+    for i in 0..now.position.len() {
+        (next.position[i], next.velocity[i]) = law(i);
+    }
+    next
+}
+
+/// Everyone but `i`: the index, the offset and the distance.
+fn others(now: &Plain, i: usize) -> impl Iterator<Item = (usize, [f64; 2], f64)> + '_ {
+    let me = now.position[i];
+    (0..now.position.len()).filter(move |&j| j != i).map(move |j| {
+        let offset = [now.position[j][0] - me[0], now.position[j][1] - me[1]];
+        (j, offset, (offset[0] * offset[0] + offset[1] * offset[1]).sqrt())
+    })
+}
+
+/// A vector times a number onto another.
+fn add(sum: &mut [f64; 2], factor: f64, vector: [f64; 2]) {
+    sum[0] += factor * vector[0];
+    sum[1] += factor * vector[1];
+}
+
+/// Moves `i` a time with a velocity.
+fn moved(now: &Plain, i: usize, velocity: [f64; 2], dt: f64) -> [f64; 2] {
+    [now.position[i][0] + velocity[0] * dt, now.position[i][1] + velocity[1] * dt]
+}
+
+/// The direction, or another one where there is none.
+fn unit_or(vector: [f64; 2], other: [f64; 2]) -> [f64; 2] {
+    let direction = unit(vector);
+    if direction == [0.0; 2] { other } else { direction }
+}
+
+/// A heading turned to another by at most an angle.
+fn turned(heading: [f64; 2], wanted: [f64; 2], limit: f64) -> [f64; 2] {
+    let between =
+        (heading[0] * wanted[1] - heading[1] * wanted[0]).atan2(heading[0] * wanted[0] + heading[1] * wanted[1]);
+    if between.abs() <= limit || heading == [0.0; 2] {
+        return wanted;
+    }
+    let (sin, cos) = limit.copysign(between).sin_cos();
+    [heading[0] * cos - heading[1] * sin, heading[0] * sin + heading[1] * cos]
 }
 
 fn unit([x, y]: [f64; 2]) -> [f64; 2] {

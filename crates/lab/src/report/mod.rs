@@ -22,6 +22,7 @@ pub(crate) use drawing::bounds;
 pub(crate) use number::number as short;
 pub use reread::replays;
 
+mod of_members;
 pub mod of_run;
 pub mod of_tracks;
 

@@ -1,5 +1,6 @@
 //! The page of a run, from its folder.
 
+use super::of_members;
 use super::{
     Axis, Border, Fact, Figure, Line, Lines, Moment, Outline, Page, Replay, Scenes, Seen, Stage, Table as Download,
 };
@@ -54,6 +55,7 @@ pub fn page(folder: &Path, read: &Read, seed: u64, quick: bool, program: &str) -
         let motion = Motion::read(&Table::open(&folder.join(TRAJECTORY))?, scenario)?;
         figures.extend(motion.replay(&setting, scenario));
         figures.extend(measured.figures(scenario));
+        figures.extend(of_members::nearest_inputs(&Table::open(&folder.join(TRAJECTORY))?, scenario)?);
         figures.extend(motion.scenes(&setting, scenario));
     } else {
         figures.extend(measured.figures(scenario));

@@ -333,6 +333,73 @@ form! {
     }
 }
 
+form! {
+    /// How far those who walk to and fro along an axis have formed lanes, over the looks: 1 in perfect lanes, about 1/n by chance with n in
+    /// one. The metric over time `lane_order` (2-D).
+    pub struct LaneReading {
+        /// Width of a lane.
+        width: f64 = [0.8], "length", Positive;
+        /// The axis along which they walk: 1 for x, 2 for y.
+        axis: usize = [1usize], "1", Within(1.0, 2.0);
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+        /// What is made of its values.
+        statistic: Statistic = [Statistic::Mean], "", Any;
+    }
+}
+
+words! {
+    /// What is read off the way-points that members choose.
+    pub enum WayPointQuantity {
+        /// Trace of their covariance in the member's own frame: smaller is smoother.
+        Smoothness = "smoothness",
+        /// Mean squared change from one cycle to the next.
+        Jitter = "jitter",
+        /// Percentage of HA and HA_PERP among these and SNN.
+        Ha = "percentage_ha",
+        /// Percentage of them whose direction differs by more than 5 degrees from that to the nearest input.
+        EffectiveHa = "effective_percentage_ha",
+        /// Mean distance to the nearest input.
+        NearestInput = "nearest_input",
+    }
+}
+
+form! {
+    /// Something of the way-points of a model that keeps them, as `ha_extended` does; a look is taken for a cycle of control.
+    pub struct WayPointReading {
+        /// What.
+        quantity: WayPointQuantity = need, "", Any;
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+    }
+}
+
+words! {
+    /// What is read off the detections of lasers.
+    pub enum DetectionQuantity {
+        /// Share of the members in range and field of view that are not detected.
+        FalseNegatives = "false_negatives",
+        /// The same of those that are not fully hidden.
+        VisibleFalseNegatives = "visible_false_negatives",
+        /// Share of the detections that belong to no member.
+        FalsePositives = "false_positives",
+        /// Number of members detected, in all scans.
+        Detected = "detected",
+        /// Number of inputs handed to the law, in all scans.
+        Inputs = "inputs",
+    }
+}
+
+form! {
+    /// What lasers detect, over the whole trial.
+    pub struct DetectionReading {
+        /// What.
+        quantity: DetectionQuantity = need, "", Any;
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+    }
+}
+
 tagged! {
     /// What is read off a trial: one number.
     pub enum Quantity {
@@ -356,6 +423,12 @@ tagged! {
         path => Path(PathReading);
         /// Something of the ground that is held.
         ground => Ground(GroundReading);
+        /// How far people who walk to and fro have formed lanes.
+        lanes => Lanes(LaneReading);
+        /// Something of the way-points that members choose.
+        way_points => WayPoints(WayPointReading);
+        /// What lasers detect.
+        detection => Detection(DetectionReading);
         /// Something of the food.
         food => Food(FoodReading);
         /// The distance between obstacles.

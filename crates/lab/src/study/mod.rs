@@ -14,6 +14,7 @@ pub mod plan;
 pub mod report;
 pub mod tables;
 pub mod trial;
+mod way_points;
 
 pub use plan::{Plan, read};
 

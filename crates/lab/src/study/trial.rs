@@ -1,17 +1,19 @@
 //! One trial: a condition's world with the seed of the trial, stepped to its end and looked at on the way.
 
 use super::form::{
-    ClusterQuantity, ClusterReading, ContactReading, CoverageReading, GroundReading, InsideReading, Partner,
-    PathQuantity, Quantity, ShareReading, Statistic, Whose,
+    ClusterQuantity, ClusterReading, ContactReading, CoverageReading, DetectionReading, GroundReading, InsideReading,
+    LaneReading, Partner, PathQuantity, Quantity, ShareReading, Statistic, Whose,
 };
 use super::ground;
 use super::meals::Meals;
 use super::plan::{Condition, Plan, entry_place};
+use super::way_points::{WayPoints, detections};
 use crate::file::{Desk, Node};
 use crate::scenario::build;
 use crate::with_types;
 use measure::looks::{Clusters, Coverage, Curvature, mean_displacement};
 use measure::metrics::{angular_momentum, expanse, mean_angular_deviation, polarisation};
+use measure::over_time::lane_order;
 use measure::{Measure, Metric, Sample};
 use space::obstacles::Obstacle;
 use space::shape::Shape;
@@ -342,6 +344,14 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
             curvature: Curvature::default(),
             mean: Mean::default(),
         }),
+        Quantity::Lanes(reading) => {
+            if D != 2 {
+                return Err(format!("lanes are defined in 2 dimensions, found {D}"));
+            }
+            Box::new(OfLanes { reading: reading.clone(), values: Values::new(reading.statistic) })
+        }
+        Quantity::WayPoints(reading) => Box::new(WayPoints::new(reading, declared)?),
+        Quantity::Detection(reading) => Box::new(OfDetections { reading: reading.clone() }),
         Quantity::Food(reading) => Box::new(Meals::new(reading, world)?),
         Quantity::ObstacleDistance(reading) => Box::new(OfObstacles { scale: reading.scale }),
     })
@@ -556,6 +566,47 @@ impl<R: Scalar, const D: usize> Reader<R, D> for Meals<R, D> {
     }
     fn value(&self, world: &World<R, D>) -> Option<f64> {
         Self::value(self, world)
+    }
+}
+
+impl<R: Scalar, const D: usize> Reader<R, D> for WayPoints {
+    fn look(&mut self, look: &Look<'_, R, D>) {
+        if look.window {
+            Self::look(self, look.world, &look.ids, &look.rows);
+        }
+    }
+    fn value(&self, _: &World<R, D>) -> Option<f64> {
+        Self::value(self)
+    }
+}
+
+struct OfLanes {
+    reading: LaneReading,
+    values: Values,
+}
+
+impl<R: Scalar, const D: usize> Reader<R, D> for OfLanes {
+    fn look(&mut self, look: &Look<'_, R, D>) {
+        if look.window {
+            let along = self.reading.axis - 1;
+            let walkers = look.positions.iter().zip(&look.velocities).map(|(x, v)| (x.0[1 - along], v.0[along]));
+            let (order, _) = lane_order::order(walkers, self.reading.width);
+            self.values.add(order.is_finite().then_some(order));
+        }
+    }
+    fn value(&self, _: &World<R, D>) -> Option<f64> {
+        self.values.value().map(|value| self.reading.scale * value)
+    }
+}
+
+struct OfDetections {
+    reading: DetectionReading,
+}
+
+impl<R: Scalar, const D: usize> Reader<R, D> for OfDetections {
+    fn look(&mut self, _: &Look<'_, R, D>) {}
+    fn value(&self, world: &World<R, D>) -> Option<f64> {
+        detections(world, &self.reading)
     }
 }
 

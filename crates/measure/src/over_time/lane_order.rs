@@ -32,6 +32,18 @@ takes! {
     pub struct LaneOrder { lane_width: LANE_WIDTH, axis: AXIS }
 }
 
+/// The order of walkers, each by its place across the lanes and its velocity along them, and how many have one; NaN where nobody has.
+pub fn order(walkers: impl IntoIterator<Item = (f64, f64)>, lane_width: f64) -> (f64, f64) {
+    let mut lanes: BTreeMap<i64, (f64, f64)> = BTreeMap::new();
+    for (across, velocity) in walkers.into_iter().filter(|(_, velocity)| *velocity != 0.0) {
+        let (ahead, back) = lanes.entry((across / lane_width).floor() as i64).or_default();
+        *(if velocity > 0.0 { ahead } else { back }) += 1.0;
+    }
+    let walkers: f64 = lanes.values().map(|(ahead, back)| ahead + back).sum();
+    let order: f64 = lanes.values().map(|(ahead, back)| (ahead - back) * (ahead - back) / (ahead + back)).sum();
+    (order / walkers, walkers)
+}
+
 impl TrackMetric for LaneOrder {
     const CARD: TrackCard = TrackCard {
         id: "lane_order",
@@ -56,16 +68,9 @@ impl TrackMetric for LaneOrder {
         let mut found = Listing::new(&Self::CARD);
         let along = usize::from(self.axis > 1.5);
         for (frame, &number) in tracks.frames().iter().enumerate() {
-            let mut lanes: BTreeMap<i64, (f64, f64)> = BTreeMap::new();
-            for row in tracks.rows(frame) {
-                let Some(v) = tracks.velocity(row).filter(|v| v.0[along] != 0.0) else { continue };
-                let lane = (tracks.position(row).0[1 - along] / self.lane_width).floor() as i64;
-                let (ahead, back) = lanes.entry(lane).or_default();
-                *(if v.0[along] > 0.0 { ahead } else { back }) += 1.0;
-            }
-            let walkers: f64 = lanes.values().map(|(ahead, back)| ahead + back).sum();
-            let order: f64 = lanes.values().map(|(ahead, back)| (ahead - back) * (ahead - back) / (ahead + back)).sum();
-            found.push([number as f64, tracks.times()[frame], order / walkers, walkers]);
+            let walker = |row: usize| Some((tracks.position(row).0[1 - along], tracks.velocity(row)?.0[along]));
+            let (order, walkers) = order(tracks.rows(frame).filter_map(walker), self.lane_width);
+            found.push([number as f64, tracks.times()[frame], order, walkers]);
         }
         Ok(found)
     }

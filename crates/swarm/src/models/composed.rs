@@ -313,8 +313,8 @@ enum Limit<R> {
 /// Limits of all sets, each limit once.
 struct Limits<R> {
     all: Vec<Limit<R>>,
-    /// For each set, its limits by their number.
-    of: Vec<Vec<usize>>,
+    /// For each set, its limits as bits by their number.
+    of: [u32; SETS],
 }
 
 /// So many different limits are told apart in lanes.
@@ -323,21 +323,22 @@ const LIMITS: usize = 12;
 impl<R: Scalar> Limits<R> {
     /// The limits of these sets among those within the reach; `None` where a set is anything else, such as a rank.
     fn new<const D: usize>(sets: &[NamedSet<R, D>], reach: R) -> Option<Self> {
-        let mut limits = Self { all: Vec::new(), of: Vec::new() };
-        for set in sets {
+        let mut limits = Self { all: Vec::new(), of: [0; SETS] };
+        for (set, bits) in sets.iter().zip(&mut limits.of) {
             let mut own = Vec::new();
             Self::add(&set.perception, reach, &mut own)?;
-            let mut number = |limit: Limit<R>| {
+            for limit in own {
                 let at = limits.all.iter().position(|other| *other == limit).unwrap_or(limits.all.len());
+                if at == LIMITS {
+                    return None;
+                }
                 if at == limits.all.len() {
                     limits.all.push(limit);
                 }
-                at
-            };
-            let own = own.into_iter().map(&mut number).collect();
-            limits.of.push(own);
+                *bits |= 1 << at;
+            }
         }
-        (limits.all.len() <= LIMITS).then_some(limits)
+        Some(limits)
     }
     fn add<const D: usize>(perception: &Perception<R, D>, reach: R, to: &mut Vec<Limit<R>>) -> Option<()> {
         match perception {
@@ -478,21 +479,19 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Composition<R, D> {
         squared: L,
         _: &Other<'_, R, D>,
     ) -> SetMasks<L::Mask> {
-        let mut masks = [L::Mask::all_of(false); SETS];
-        let Some(limits) = &self.limits else { return masks };
-        let mut held = [L::Mask::all_of(false); LIMITS];
-        for l in 0..limits.all.len().min(LIMITS) {
-            held[l] = match limits.all[l] {
+        let Some(limits) = &self.limits else { return [L::Mask::all_of(false); SETS] };
+        let mut masks: SetMasks<L::Mask> = core::array::from_fn(|s| L::Mask::all_of(s < self.sets.len()));
+        for (l, limit) in limits.all.iter().enumerate() {
+            let held = match *limit {
                 Limit::From(low) => L::splat(low).less_equal(squared),
                 Limit::Below(high) => squared.less(L::splat(high)),
                 Limit::Cone(cos_half) => in_view(&me.heading, offset, squared, cos_half),
                 Limit::Never => L::Mask::all_of(false),
             };
-        }
-        for s in 0..limits.of.len().min(SETS) {
-            masks[s] = L::Mask::all_of(true);
-            for k in 0..limits.of[s].len() {
-                masks[s] = masks[s].and(held[limits.of[s][k]]);
+            for s in 0..SETS {
+                if limits.of[s] >> l & 1 == 1 {
+                    masks[s] = masks[s].and(held);
+                }
             }
         }
         masks
@@ -516,7 +515,11 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Composition<R, D> {
         sums.used = self.met.len();
         for t in 0..self.met.len().min(MOST) {
             let (term, set) = &self.met[t];
-            term.meet(&mut sums.terms[t], &met, sets[*set]);
+            let mask = sets[*set];
+            // most neighbours are in one of several sets
+            if self.sets.len() == 1 || mask.any() {
+                term.meet(&mut sums.terms[t], &met, mask);
+            }
         }
     }
     #[inline(always)]

@@ -74,12 +74,22 @@ impl<R: Scalar> Law<R> for HaExtended<R> {
         },
     };
     fn columns() -> &'static [Column] {
-        &[Column {
-            name: "mode",
-            unit: "1",
-            kind: ColumnKind::Label(&["KEEP", "SNN", "HA", "HA_PERP"]),
-            about: "Branch of the rule that made the last step.",
-        }]
+        const fn length(name: &'static str, about: &'static str) -> Column {
+            Column { name, unit: "length", kind: ColumnKind::Quantity, about }
+        }
+        const COLUMNS: &[Column] = &[
+            Column {
+                name: "mode",
+                unit: "1",
+                kind: ColumnKind::Label(&["KEEP", "SNN", "HA", "HA_PERP"]),
+                about: "Branch of the rule that made the last step.",
+            },
+            length("way_point_ahead", "The last way-point in the member's own frame: how far ahead."),
+            length("way_point_left", "How far to the left."),
+            length("nearest_ahead", "The nearest input of that decision in the same frame: how far ahead."),
+            length("nearest_left", "How far to the left; both 0 where there was none."),
+        ];
+        COLUMNS
     }
     fn needs(&self) -> Needs {
         Needs::default()
@@ -91,7 +101,8 @@ impl<R: Scalar> Model<R, 2> for HaExtended<R> {
         vec![NamedSet::new("inputs", Perception::distance(R::ZERO, self.range))]
     }
     fn decide(&self, me: &mut Me<'_, R, 2>, seen: &Percepts<'_, R, 2>, draws: &Draws<'_>) -> Motion<R, 2> {
-        let (mode, step) = match seen.nearest(0) {
+        let first = seen.nearest(0);
+        let (mode, step) = match first {
             None => (KEEP, me.velocity),
             Some(first) => {
                 let far = seen.distance(first) > self.repulsion_distance;
@@ -115,6 +126,12 @@ impl<R: Scalar> Model<R, 2> for HaExtended<R> {
             }
         };
         me.own[0] = R::count(mode);
+        let heading = me.heading();
+        let nearest = first.map_or(Vector::ZERO, |first| seen.offset(first));
+        for (k, vector) in [(1, step), (3, nearest)] {
+            me.own[k] = vector.dot(heading);
+            me.own[k + 1] = vector.dot(heading.left());
+        }
         me.unit("length");
         if mode != HA {
             me.note(["previous step", "towards the first input", "", "aside"][mode], step);
@@ -162,6 +179,17 @@ mod tests {
         let w = Oracle::new("ha_extended").set("r_rep", 3.0).set("exclusion", 0.4).step(&inputs);
         close(w.position(0), [-1.0, 0.0]);
         assert_eq!(mode(&w, 0), Some(HA_PERP));
+    }
+
+    #[test]
+    fn way_points_and_nearest_inputs_are_kept_in_the_own_frame() {
+        // headed up: an input to the right is ahead by nothing and to the left by less than nothing
+        let w = Oracle::new("ha_extended").step(&[([0.0, 0.0], [0.0, 0.4]), ([3.0, 1.0], REST)]);
+        let kept = ["way_point_ahead", "way_point_left", "nearest_ahead", "nearest_left"].map(|name| w.state(0, name));
+        let length = 10f64.sqrt();
+        for (found, expected) in kept.into_iter().zip([1.0 / length, -3.0 / length, 1.0, -3.0]) {
+            assert!((found.unwrap_or(f64::NAN) - expected).abs() < 1e-12, "{kept:?}");
+        }
     }
 
     #[test]
