@@ -85,7 +85,7 @@ fn a_trial_of_a_search_is_sent_in_every_form_and_its_page_plays_it() {
         "--trials",
         "1",
         "--set",
-        "set.time.duration=8",
+        "set.time.duration=80",
         "--out",
         folder.to_str().unwrap(),
     ]);
