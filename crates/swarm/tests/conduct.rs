@@ -86,8 +86,9 @@ fn who_is_full_rests_until_it_is_hungry() {
     for _ in 0..6 {
         let before = w.position(0);
         w.step();
-        rested.push(w.state(0, "conduct") == Some(3.0));
-        assert_eq!(w.position(0) == before, *rested.last().unwrap());
+        let rests = w.state(0, "conduct") == Some(3.0);
+        assert!(!rests || w.position(0) == before);
+        rested.push(rests);
     }
     // energy before the steps: 50, 49, 48, 47, 46, 45
     assert_eq!(rested, [true, true, true, true, false, false]);
