@@ -1,6 +1,7 @@
 // The focal agent in words and numbers, beside its figure: sets, components, motion, choice, and every value by stage.
 
 import { componentStyle, drawFigure, reachOf, setMark, setStyle } from "./picture.js";
+import { copyButton } from "./vector.js";
 import { drawn, element, one, withUnit, written } from "./words.js";
 
 const STAGES = ["sensing", "detection", "selection", "motion", "physics", "state"];
@@ -23,15 +24,34 @@ function sample(style, shape) {
 }
 const named = (style, shape, text) => element("th", { scope: "row" }, sample(style, shape), text);
 
+/** What the figure of an agent shows, in numbers. */
+function rowsOf(explanation) {
+  const rows = [["what", "name", "agent", "x", "y", "z"]];
+  const put = (what, name, vector, agent = "") => { if (vector) rows.push([what, name, agent, ...vector]); };
+  put("position", "", explanation.position, explanation.agent);
+  put("motion", "now", explanation.velocity);
+  put("motion", "wanted", explanation.wanted);
+  put("motion", "performed", explanation.performed);
+  for (const part of explanation.components) put("component", part.name, part.vector);
+  for (const { offset, id } of explanation.detected) put("detected", "", offset, id ?? "");
+  for (const set of explanation.sets) for (const { offset, id } of set.members) put("set", set.name, offset, id ?? "");
+  for (const { offset } of explanation.obstacles) put("obstacle", "", offset);
+  for (const { to, hit } of explanation.rays) put("ray", hit, to);
+  return rows;
+}
+
 export class Explanation {
   constructor(place) {
     this.place = place;
     this.figure = one(".inset", place);
     this.tables = one(".tables", place);
+    this.shown = null;
+    one("[data-do=nobody]", place).after(copyButton("the agent's figure", () => (this.shown ? { svg: this.figure, rows: rowsOf(this.shown) } : null)));
   }
 
   /** `pane` gives the units, the frame for headings, and the direction from which a space is seen. */
   show(explanation, pane) {
+    this.shown = explanation;
     this.place.classList.toggle("none", explanation === null);
     if (explanation === null) { this.tables.replaceChildren(); this.figure.replaceChildren(); return; }
     const { scene } = pane;
@@ -87,6 +107,7 @@ export class Explanation {
 
   /** Of a recorded individual nobody knows why it moves: what it does, and what was measured of it. */
   showRecorded({ name, agent, group, values }) {
+    this.shown = null;
     this.figure.replaceChildren();
     let before = null;
     const rows = values.map((row) => {

@@ -3,7 +3,7 @@
 import { Camera } from "./camera.js";
 import { Connection } from "./connection.js";
 import { boundsOf, readFrame, readScene } from "./frame.js";
-import { backdrop, sketch } from "./sketch.js";
+import { agents, backdrop } from "./sketch.js";
 import { readShape } from "./solids.js";
 import { colours, element, one, paragraphs, wantsCalm } from "./words.js";
 
@@ -137,10 +137,15 @@ class Preview {
     // what does not move is drawn once
     if (!before || [camera.scale, ...camera.centre].some((value, at) => value !== before[at])) {
       this.behind ??= element("canvas", { width: WIDE * ratio, height: TALL * ratio });
-      backdrop(this.behind.getContext("2d"), scene, camera, this.obstacles, colours(), ratio);
+      const pen = this.behind.getContext("2d");
+      pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+      backdrop(pen, scene, camera, this.obstacles, colours());
     }
     Object.assign(canvas, { width: WIDE * ratio, height: TALL * ratio });
-    sketch(canvas.getContext("2d"), this.behind, scene, camera, frame, colours(), ratio);
+    const pen = canvas.getContext("2d");
+    pen.drawImage(this.behind, 0, 0);
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    agents(pen, scene, camera, frame, colours());
     this.card.box.dataset.step = frame.step;
     this.seen();
     // a still is done when its steps are

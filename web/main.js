@@ -8,6 +8,7 @@ import { Pane } from "./pane.js";
 import { Panel } from "./panel.js";
 import { PairClock } from "./pair.js";
 import { Searches, answer } from "./searched.js";
+import { copyButton } from "./vector.js";
 import { all, clamp, drawn, element, isNumber, one, oncePerPicture, paragraphs, save, say, wantsCalm, withUnit, written } from "./words.js";
 
 const root = document.documentElement;
@@ -76,6 +77,7 @@ const explanation = new Explanation(one("#focal"));
 const gallery = new Gallery(one("#gallery"), (what) => { location.hash = what.gallery === undefined ? `given=${what.given}` : `gallery=${encodeURIComponent(what.gallery)}`; });
 const name = (text) => { at.title.textContent = text; document.title = text === "flockworks" ? text : `${text} · flockworks`; };
 const searches = new Searches(one("#searched"), (number, place) => { location.hash = new URLSearchParams({ given: number, ...place }); }, name);
+button("fit").after(copyButton("the scene", () => (active ?? lead())?.figure()));
 const draw = new Draw(one("#drawing"), { notice, name, open: (file, text) => give(file, text) });
 
 const PANEL_PAUSE = 100;

@@ -4,7 +4,9 @@ import { Connection } from "./connection.js";
 import { Drawing } from "./draw.js";
 import { readEvent, readExplanation, readFrame, readScene, vector, vectorOf } from "./frame.js";
 import { drawFigure } from "./picture.js";
+import { agents, backdrop } from "./sketch.js";
 import { readShape } from "./solids.js";
+import { inLight } from "./vector.js";
 import { clamp, colours, drawn, element, isNumber, roundLength, withUnit } from "./words.js";
 
 // an explanation comes right after its frame: a picture waits so many pictures of the screen for it, not longer
@@ -257,6 +259,25 @@ export class Pane {
     if (!place) { if (this.overlay.firstChild) this.overlay.replaceChildren(); return; }
     const [x, y, , scale] = camera.project(place);
     this.overlay.replaceChildren(drawn("circle", { cx: x, cy: y, r: view.radius(scale) + 6, class: "focal-ring", "data-agent": this.focal }));
+  }
+
+  /** The scene as a drawing with its data; null where there is none. */
+  figure() {
+    const { scene, frame, drawing } = this;
+    if (!scene || !frame || !drawing) return null;
+    const { camera, ends, obstacles } = drawing, D = scene.dimensions, axes = ["x", "y", "z"].slice(0, D);
+    const groupOf = (agent) => scene.groups.find(({ first, count }) => agent >= first && agent < first + count)?.name ?? "";
+    const rows = [["agent", "group", ...axes, ...axes.map((axis) => `heading_${axis}`)]];
+    for (let agent = 0; agent < frame.agents; agent += 1) {
+      const [place, heading] = [frame.positions, frame.headings].map((values) => Array.from(values.subarray(agent * D, agent * D + D)));
+      rows.push([agent, groupOf(agent), ...place, ...heading]);
+    }
+    const draw = (pen) => {
+      const light = inLight(colours);
+      backdrop(pen, scene, camera, obstacles, light, ends);
+      agents(pen, scene, camera, frame, light, frame.agents);
+    };
+    return { wide: camera.wide, tall: camera.tall, rows, draw };
   }
 
   resize() {

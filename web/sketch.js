@@ -1,4 +1,4 @@
-// A small picture of a scene without WebGL, for the cards of the gallery: there may be many of them on the page.
+// A picture of a scene without WebGL: for the cards of the gallery, of which there are many, and for copies as SVG.
 
 import { LINE_NUMBERS, solids } from "./solids.js";
 import { clamp } from "./words.js";
@@ -7,12 +7,11 @@ const MOST_AGENTS = 1500;
 const css = ([red, green, blue]) => `rgb(${Math.round(255 * red)} ${Math.round(255 * green)} ${Math.round(255 * blue)})`;
 const ARROW = [[1, 0], [-0.8, 0.68], [-0.4, 0], [-0.8, -0.68]];
 
-/** Draws all of a scene that stands still. */
-export function backdrop(pen, scene, camera, obstacles, colours, ratio) {
-  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+/** Draws all of a scene that stands still; `ends` are the corners of the space, where they are not those the camera shows. */
+export function backdrop(pen, scene, camera, obstacles, colours, ends = camera) {
   pen.fillStyle = css(camera.isSpace ? colours.stage : colours.ground);
   pen.fillRect(0, 0, camera.wide, camera.tall);
-  const { triangles, lines } = solids(scene, camera, obstacles, colours);
+  const { triangles, lines } = solids(scene, ends, obstacles, colours);
   const path = (places, closes) => {
     pen.beginPath();
     places.forEach(([x, y], at) => (at === 0 ? pen.moveTo(x, y) : pen.lineTo(x, y)));
@@ -36,14 +35,11 @@ export function backdrop(pen, scene, camera, obstacles, colours, ratio) {
   pen.setLineDash([]);
 }
 
-/** Draws a frame before its backdrop; of very many agents, only some. */
-export function sketch(pen, behind, scene, camera, frame, colours, ratio) {
-  pen.setTransform(1, 0, 0, 1, 0, 0);
-  pen.drawImage(behind, 0, 0);
-  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+/** Draws the agents of a frame; of very many, only some. */
+export function agents(pen, scene, camera, frame, colours, most = MOST_AGENTS) {
   const { positions, headings, dimensions: D } = frame;
   const [across, up] = camera.axes();
-  const stride = Math.max(1, Math.ceil(frame.agents / MOST_AGENTS)), least = frame.agents > 400 ? 2.2 : 3.4;
+  const stride = Math.max(1, Math.ceil(frame.agents / most)), least = frame.agents > 400 ? 2.2 : 3.4;
   const along = (axis, index) => { let total = 0; for (let k = 0; k < D; k += 1) total += axis[k] * headings[index * D + k]; return total; };
   for (let group = 0; group < scene.groups.length; group += 1) {
     const { first, count, radius } = scene.groups[group];

@@ -54,19 +54,46 @@ export class VectorPen {
   rotate(angle) { this.moves += ` rotate(${short(angle * 180 / Math.PI)})`; }
 }
 
-/** The colours for light paper, whatever the page has. */
-function ofPaper() {
+/** Does something while the page has the colours for light paper. */
+export function inLight(act) {
   const root = document.documentElement, was = root.dataset.theme;
   root.dataset.theme = "light";
-  const names = ["ground", "stage", "text", "faint", "rule", "grid", "obstacle", "accent", ...[0, 1, 2, 3, 4, 5, 6].map((at) => `series-${at}`)];
-  const named = css();
-  const found = new Map(names.map((name) => [name, named(name)]));
-  if (was === undefined) delete root.dataset.theme; else root.dataset.theme = was;
-  return (name) => found.get(name) ?? "#000000";
+  try { return act(); } finally { if (was === undefined) delete root.dataset.theme; else root.dataset.theme = was; }
 }
 
-/** A drawing as the text of an SVG. `draw(pen, named)` draws, `rows` are its data, the names of columns first. */
-export function asSvg({ title, wide, tall, rows, draw }) {
+/** The colours for light paper, whatever the page has. */
+const ofPaper = () => inLight(() => {
+  const names = ["ground", "stage", "text", "faint", "rule", "grid", "obstacle", "accent", ...[0, 1, 2, 3, 4, 5, 6].map((at) => `series-${at}`)];
+  const named = css(), found = new Map(names.map((name) => [name, named(name)]));
+  return (name) => found.get(name) ?? "#000000";
+});
+
+const LOOKS = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-opacity", "stroke-dasharray", "stroke-linecap", "stroke-linejoin", "opacity", "font-size", "font-weight", "text-anchor", "paint-order"];
+
+/** An SVG of the page that stands alone: what its style sheet says is in its elements. */
+function standingAlone(svg) {
+  const copy = svg.cloneNode(true), box = svg.getBoundingClientRect();
+  const [from, to] = [svg, copy].map((root) => [root, ...root.querySelectorAll("*")]);
+  inLight(() => from.forEach((part, at) => {
+    const looks = getComputedStyle(part);
+    if (looks.display === "none") to[at].setAttribute("display", "none");
+    for (const name of LOOKS) to[at].setAttribute(name, looks.getPropertyValue(name));
+    to[at].removeAttribute("class");
+  }));
+  Object.entries({ xmlns: "http://www.w3.org/2000/svg", width: short(box.width), height: short(box.height), "font-family": "system-ui, sans-serif" }).forEach(([name, value]) => copy.setAttribute(name, value));
+  return copy;
+}
+
+/**
+ * A drawing as the text of an SVG. `draw(pen, named)` draws, or `svg` is one of the page; `rows` are its data, the names of
+ * columns first.
+ */
+export function asSvg({ title, wide, tall, rows, draw, svg }) {
+  if (svg) {
+    const copy = standingAlone(svg);
+    copy.prepend(drawn("title", {}, title), drawn("metadata", {}, csv(rows)));
+    return new XMLSerializer().serializeToString(copy);
+  }
   const pen = new VectorPen(wide, tall), named = ofPaper();
   pen.svg.append(drawn("title", {}, title), drawn("metadata", {}, csv(rows)));
   pen.fillStyle = named("ground");

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { after, before, describe, test } from "node:test";
 import { fileURLToPath } from "node:url";
@@ -162,6 +162,30 @@ describe("the real server", () => {
     assert.deepEqual(await arrows(page), asked(expected));
     same(await components(page), expected.components);
     await page.screenshot({ path: `${pictures}/watch-run.png` });
+  }));
+
+  test("the scene and the figure of an agent are copied as drawings with their data", () => opened([mill], async (page) => {
+    await page.locator(".time[data-step]").waitFor();
+    await clicked(page, 7);
+    await page.evaluate(() => { Object.defineProperty(navigator, "clipboard", { configurable: true, value: { writeText: async (text) => { window.copied = text; } } }); });
+    const copied = async (button) => {
+      await page.evaluate(() => { window.copied = null; });
+      await button.click();
+      await page.waitForFunction(() => window.copied !== null);
+      return page.evaluate(() => {
+        const root = new DOMParser().parseFromString(window.copied, "image/svg+xml").documentElement;
+        return { name: root.localName, paths: root.querySelectorAll("path").length, rows: root.querySelector("metadata").textContent.trim().split("\n"), text: window.copied };
+      });
+    };
+    const scene = await copied(page.locator("#about .copy")), figure = await copied(page.locator("#focal .copy"));
+    const { position, components: parts } = explained(0, 7, mill);
+    assert.deepEqual([scene.name, scene.rows.length, scene.rows[0]], ["svg", 61, "agent,group,x,y,heading_x,heading_y"]);
+    const place = scene.rows[8].split(",");
+    assert.deepEqual(place.slice(0, 2), ["7", "fish"]);
+    position.forEach((value, axis) => assert.ok(Math.abs(Number(place[2 + axis]) - value) < 1e-5 * Math.max(1, Math.abs(value))));
+    assert.ok(scene.paths >= 1 && figure.paths > 3);
+    for (const part of parts) assert.ok(figure.rows.some((row) => row.startsWith(`component,${part.name},`)), part.name);
+    for (const [name, { text }] of Object.entries({ scene, figure })) writeFileSync(`${pictures}/copied-${name}.svg`, text);
   }));
 
   test("a click in a simulation shows the arrows of the same moment of its record", () => opened(["studies/gallery/mill.toml"], async (page) => {
