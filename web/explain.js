@@ -45,13 +45,20 @@ export class Explanation {
     this.place = place;
     this.figure = one(".inset", place);
     this.tables = one(".tables", place);
-    this.shown = null;
-    one("[data-do=nobody]", place).after(copyButton("the agent's figure", () => (this.shown ? { svg: this.figure, rows: rowsOf(this.shown) } : null)));
+    this.copy = copyButton("the agent's figure", () => (this.shown ? { svg: this.figure, rows: rowsOf(this.shown) } : null));
+    one("[data-do=nobody]", place).after(this.copy);
+    this.drawn(null);
+  }
+
+  /** Notes what the figure shows; nothing is no figure to copy. */
+  drawn(explanation) {
+    this.shown = explanation;
+    this.copy.hidden = explanation === null;
   }
 
   /** `pane` gives the units, the frame for headings, and the direction from which a space is seen. */
   show(explanation, pane) {
-    this.shown = explanation;
+    this.drawn(explanation);
     this.place.classList.toggle("none", explanation === null);
     if (explanation === null) { this.tables.replaceChildren(); this.figure.replaceChildren(); return; }
     const { scene } = pane;
@@ -107,7 +114,7 @@ export class Explanation {
 
   /** Of a recorded individual nobody knows why it moves: what it does, and what was measured of it. */
   showRecorded({ name, agent, group, values }) {
-    this.shown = null;
+    this.drawn(null);
     this.figure.replaceChildren();
     let before = null;
     const rows = values.map((row) => {
