@@ -399,6 +399,42 @@ describe("drawing", () => {
     await playing(page);
   }, { hash: "#draw" }));
 
+  test("what every tool draws is in the files, and comes back from them", () => opened([], async (page) => {
+    await page.locator(".stage").waitFor();
+    const box = await page.locator(".stage").boundingBox();
+    const tools = {
+      wall: [[0.38, 0.3], [0.45, 0.3]], disc: [[0.52, 0.35], [0.58, 0.35]], box: [[0.4, 0.6], [0.45, 0.7]], anchor: [[0.62, 0.5]],
+      polygon: [[0.54, 0.6], [0.61, 0.6], [0.61, 0.72], [0.54, 0.6]], region: [[0.5, 0.45], [0.57, 0.55]], gate: [[0.48, 0.3], [0.48, 0.4]],
+      boundary: [[0.35, 0.2], [0.65, 0.2], [0.65, 0.8], [0.35, 0.2]], start: [[0.4, 0.42], [0.46, 0.54]],
+    };
+    for (const [tool, points] of Object.entries(tools)) {
+      await page.locator(`[data-tool=${tool}]`).click();
+      for (const [u, v] of points) await page.mouse.click(box.x + u * box.width, box.y + v * box.height);
+      await page.keyboard.press("Escape");
+      assert.equal(await page.locator(`.item.${tool}`).count(), 1, tool);
+    }
+    const saves = async (as) => {
+      await page.locator("label", { hasText: "Save as" }).locator("select").selectOption(as);
+      const [download] = await Promise.all([page.waitForEvent("download"), page.locator("[data-do=save-drawing]").click()]);
+      const path = `${scratch}/every-${as}-${download.suggestedFilename()}`;
+      await download.saveAs(path);
+      return path;
+    };
+    const scenario = await saves("file");
+    run("check", scenario);
+    const text = readFileSync(scenario, "utf8");
+    for (const part of ["segment", "ball", "box", "polygon", "place"]) assert.ok(text.includes(part), part);
+    assert.match(readFileSync(await saves("workspace"), "utf8"), /anchor\.|gate\./);
+    const kept = { geojson: ["wall", "disc", "polygon", "anchor", "gate", "region", "boundary"], svg: ["wall", "disc", "polygon"] };
+    for (const [as, items] of Object.entries(kept)) {
+      const [chooser, path] = [page.waitForEvent("filechooser"), await saves(as)];
+      await page.locator("[data-do=open]").click();
+      await (await chooser).setFiles(path);
+      await page.waitForFunction(() => document.querySelectorAll(".stage .item.start").length === 0);
+      for (const item of items) assert.ok(await page.locator(`.stage .item.${item}`).count() > 0, `${item} from ${as}`);
+    }
+  }, { hash: "#draw" }));
+
   test("it fits a phone", () => opened([], async (page) => {
     await page.locator(".stage").waitFor();
     assert.equal(await overflow(page), 0);
