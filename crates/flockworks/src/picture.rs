@@ -111,7 +111,7 @@ fn drawn(entry: &Entry, ways: &[Vec<[f64; 2]>], end: &Moment, jump: f64) -> Stri
         }
         arrows.push('Z');
     }
-    let _ = write!(svg, "<g fill=\"#1f5fae\"><path d=\"{arrows}\"/>{discs}</g></svg>\n");
+    let _ = writeln!(svg, "<g fill=\"#1f5fae\"><path d=\"{arrows}\"/>{discs}</g></svg>");
     svg
 }
 
