@@ -84,15 +84,14 @@ export class Gallery {
 /** What a card shows: a simulation of its own, or a record. */
 class Preview {
   constructor(card) {
-    Object.assign(this, { card, scene: null, frame: null, obstacles: [], behind: null, timer: 0, drawn: -Infinity, isCalm: wantsCalm() });
+    Object.assign(this, { card, scene: null, frame: null, unseen: [], obstacles: [], behind: null, timer: 0, waits: false, drawn: -Infinity, isCalm: wantsCalm() });
     this.camera = new Camera();
     this.connection = new Connection({
       state: () => {},
       message: (message) => this.receive(message),
       frame: (buffer) => {
-        // a frame that another one replaces is seen too: the server sends none while two are unseen
-        this.seen();
         this.frame = readFrame(buffer);
+        this.unseen.push(this.frame.number);
         if (this.scene && this.frame.dimensions === this.scene.dimensions) this.request(); else this.seen();
       },
       // a preview is no place for complaints: the scene itself says what is wrong
@@ -102,9 +101,8 @@ class Preview {
 
   end() { clearTimeout(this.timer); this.connection.end(); }
 
-  seen() {
-    if (this.frame && this.frame.number !== this.told) { this.told = this.frame.number; this.connection.send({ do: "seen", number: this.told }); }
-  }
+  /** The newest frame was drawn, and those before it passed over: the server sends none while two are unseen. */
+  seen() { for (const number of this.unseen.splice(0)) this.connection.send({ do: "seen", number }); }
 
   receive(message) {
     const { connection } = this;
@@ -122,8 +120,9 @@ class Preview {
   }
 
   request() {
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => requestAnimationFrame((now) => this.picture(now)), Math.max(0, this.drawn + PAUSE - performance.now()));
+    if (this.waits) return;
+    this.waits = true;
+    this.timer = setTimeout(() => requestAnimationFrame((now) => { this.waits = false; this.picture(now); }), Math.max(0, this.drawn + PAUSE - performance.now()));
   }
 
   picture(now) {

@@ -31,14 +31,14 @@ before(async () => {
 after(() => browser?.close());
 
 /** Serves something, opens the page, does something with it, and sees to it that nothing was complained about. */
-async function opened(given, act) {
+async function opened(given, act, looks = {}) {
   const server = spawn(program, ["view", ...given], { cwd: root, stdio: ["ignore", "pipe", "inherit"] });
   try {
     const address = await new Promise((resolve, reject) => {
       server.stdout.once("data", (bytes) => resolve(bytes.toString().split("\n")[0]));
       server.once("exit", () => reject(new Error("the server ended")));
     });
-    const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, acceptDownloads: true, reducedMotion: "reduce" });
+    const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, acceptDownloads: true, reducedMotion: "reduce", ...looks });
     const page = await context.newPage();
     const complaints = [], requests = [];
     // this browser says so of every page that draws with WebGL, when WebGL is computed by software
@@ -116,6 +116,32 @@ describe("the real server", () => {
     await page.waitForFunction(() => [...document.querySelectorAll(".card")].every(({ dataset }) => Number(dataset.step) > 0));
     await page.waitForTimeout(1000);
     await page.screenshot({ path: `${pictures}/watch-gallery.png` });
+  }));
+
+  const steps = (page) => page.locator(".card[data-step]").evaluateAll((cards) => cards.map(({ dataset }) => Number(dataset.step)));
+
+  test("every card in view plays, and none elsewhere", () => opened([], async (page) => {
+    await page.waitForFunction(() => document.querySelectorAll(".card[data-step]").length === 9);
+    const first = await steps(page);
+    await page.waitForFunction((first) => [...document.querySelectorAll(".card[data-step]")].every(({ dataset }, at) => Number(dataset.step) > first[at]), first);
+    await page.setViewportSize({ width: 500, height: 300 });
+    const last = page.locator(".card[data-step]").last();
+    let still = null;
+    for (let tries = 0; await last.getAttribute("data-step") !== still; tries += 1) {
+      assert.ok(tries < 20, "a card out of view goes on");
+      still = await last.getAttribute("data-step");
+      await page.waitForTimeout(600);
+    }
+    await last.scrollIntoViewIfNeeded();
+    await page.waitForFunction((still) => [...document.querySelectorAll(".card[data-step]")].at(-1).dataset.step !== still, still);
+  }, { reducedMotion: "no-preference", viewport: { width: 1280, height: 2400 } }));
+
+  test("cards stand still where nothing shall move", () => opened([], async (page) => {
+    await page.waitForFunction(() => document.querySelector(".card[data-step='120']") !== null);
+    await page.waitForTimeout(400);
+    const [first] = await steps(page);
+    await page.waitForTimeout(400);
+    assert.deepEqual([first, (await steps(page))[0]], [120, 120]);
   }));
 
   test("a simulation plays, and a changed parameter is in the saved file", () => opened(["studies/gallery/mill.toml"], async (page) => {

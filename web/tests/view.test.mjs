@@ -335,32 +335,6 @@ describe("the gallery", () => {
     await page.goBack();
     await shown(page);
   }));
-
-  const steps = (page) => page.locator(".card[data-step]").evaluateAll((cards) => cards.map(({ dataset }) => Number(dataset.step)));
-
-  test("every card in view plays, and none elsewhere", () => opened({ named: [], reducedMotion: "no-preference", viewport: { width: 1280, height: 2400 } }, async ({ page }) => {
-    const playing = await page.locator(".card", { hasText: /\d agents/ }).count();
-    await page.waitForFunction((count) => document.querySelectorAll(".card[data-step]").length === count, playing);
-    const first = await steps(page);
-    await page.waitForFunction((first) => [...document.querySelectorAll(".card[data-step]")].every(({ dataset }, at) => Number(dataset.step) > first[at]), first);
-    await page.setViewportSize({ width: 500, height: 300 });
-    const last = page.locator(".card[data-step]").last();
-    let still = null;
-    for (let tries = 0; await last.getAttribute("data-step") !== still; tries += 1) {
-      assert.ok(tries < 20, "a card out of view goes on");
-      still = await last.getAttribute("data-step");
-      await page.waitForTimeout(600);
-    }
-    await last.scrollIntoViewIfNeeded();
-    await page.waitForFunction((still) => [...document.querySelectorAll(".card[data-step]")].at(-1).dataset.step !== still, still);
-  }));
-
-  test("cards stand still where nothing shall move", () => opened({ named: [] }, async ({ page, messages }) => {
-    await page.waitForFunction(() => Number(document.querySelector(".card").dataset.step) === 120);
-    assert.equal(messages.sent("play").length, 0);
-    await page.waitForTimeout(300);
-    assert.equal((await steps(page))[0], 120);
-  }));
 });
 
 describe("what goes wrong", () => {
