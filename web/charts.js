@@ -1,7 +1,8 @@
 // Metrics as small charts under the scene, over one time line: the time shown, the time pointed at, and events.
 
 import { chartAsSvg } from "./plot.js";
-import { clamp, colours, element, one, save, say, titled, withUnit, written } from "./words.js";
+import { copyButton } from "./vector.js";
+import { clamp, colours, element, titled, withUnit, written } from "./words.js";
 
 // beyond so many points every second one is dropped: the line looks the same
 const MOST_POINTS = 4000;
@@ -48,8 +49,7 @@ export class Charts {
       this.figures = this.metrics.map((metric, index) => {
         const canvas = element("canvas", { role: "img" });
         const value = element("span", { className: "now" });
-        const copy = element("button", { type: "button", className: "quiet copy", textContent: "Copy", title: `Copy ${metric.title} as SVG with its data` });
-        copy.addEventListener("click", () => this.copy(index, copy));
+        const copy = copyButton(metric.title, () => ({ text: this.asSvg(index) }), metric.id);
         const figure = element("figure", { tabIndex: 0, title: scene.isRun ? "Click or press Enter: go to this time. Arrow keys: read out." : "Arrow keys: read out." },
           element("figcaption", {}, element("span", { className: "title", textContent: titled(metric.title, metric.unit) }), value, copy), canvas);
         figure.dataset.metric = metric.id;
@@ -145,16 +145,11 @@ export class Charts {
     return (this.panes ?? []).flatMap((pane, number) => [...(pane?.lines ?? [])].map(([name, all]) => ({ name, number, t: pane.t, y: all[index] ?? [] })));
   }
 
-  /** Copies a chart as SVG with its data; where the browser does not allow that, saves it. */
-  async copy(index, button) {
+  /** A chart as the text of an SVG with its data. */
+  asSvg(index) {
     const metric = this.metrics[index], lines = this.linesOf(index);
     const named = lines.map(({ name, number, ...rest }) => ({ name: number > 0 ? `run ${number + 1}: ${name}` : name, ...rest }));
-    const svg = chartAsSvg(metric.title, metric.unit, this.unit, named, this.ends, metric.range);
-    let word = "Copied";
-    try { await navigator.clipboard.writeText(svg); } catch { save(`${metric.id}.svg`, svg, "image/svg+xml"); word = "Saved"; }
-    button.textContent = word;
-    say(`${metric.title}: ${word}`);
-    setTimeout(() => { button.textContent = "Copy"; }, 2000);
+    return chartAsSvg(metric.title, metric.unit, this.unit, named, this.ends, metric.range);
   }
 
   draw() {

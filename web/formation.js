@@ -1,7 +1,7 @@
 // A formation file: tasks by methods, and any trial watched again, with robots and walls.
 
 import { boundsOfDrawing, css, drawDrawing, penOf } from "./paper.js";
-import { choice, table } from "./searched.js";
+import { choice, table, walk } from "./searched.js";
 import { clamp, element, isBare, one, titled, withUnit, written } from "./words.js";
 import { copyButton, rowsOfDrawing } from "./vector.js";
 
@@ -45,7 +45,7 @@ export class FormationView {
         ...methods.map((method, x) => element("td", {}, this.cell(this.byPlace.get(`${y} ${x}`), x, y)))));
     });
     grid.append(body);
-    grid.addEventListener("keydown", (event) => this.key(event, grid));
+    grid.addEventListener("keydown", (event) => walk(event, grid, Math.max(this.overview.methods.length, this.overview.tasks.length)));
     this.grids.replaceChildren(note, element("div", { className: "scroll" }, grid));
     const first = one("button", grid);
     if (first) first.tabIndex = 0;
@@ -106,23 +106,6 @@ export class FormationView {
         });
       });
     } };
-  }
-
-  key(event, grid) {
-    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-    const { x, y } = event.target.dataset ?? {};
-    if (!step || x === undefined || event.altKey || event.ctrlKey || event.metaKey) return;
-    event.preventDefault();
-    event.stopPropagation();
-    // cells that were not tried are gone over
-    for (let [a, b] = [Number(x) + step[0], Number(y) + step[1]]; a >= 0 && b >= 0 && a < this.overview.methods.length && b < this.overview.tasks.length; a += step[0], b += step[1]) {
-      const next = one(`[data-x="${a}"][data-y="${b}"]`, grid);
-      if (!next) continue;
-      event.target.tabIndex = -1;
-      next.tabIndex = 0;
-      next.focus();
-      return;
-    }
   }
 
   choose(cell) {

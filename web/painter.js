@@ -113,11 +113,10 @@ export class Painter {
     this.depth = isSpace ? new Float32Array(wide * tall) : null;
   }
 
-  /** The rows of the agents, in space from the farthest to the nearest by `far`. */
+  /** The rows of the agents from the farthest to the nearest by `far`. */
   ordered(agents, far) {
     if (this.order.length < agents) this.order = new Uint32Array(agents);
     const { order } = this;
-    if (far === null) { for (let agent = 0; agent < agents; agent += 1) order[agent] = agent; return order; }
     let least = Infinity, most = -Infinity;
     for (let agent = 0; agent < agents; agent += 1) { const w = far[agent]; if (w < least) least = w; if (w > most) most = w; }
     const ends = new Uint32Array(BUCKETS + 1), by = (BUCKETS - 1) / (most - least || 1);
@@ -147,12 +146,12 @@ export class Painter {
         far[agent] = m[3] * positions[k] + m[7] * positions[k + 1] + m[11] * positions[k + 2] + m[15];
       }
     }
-    const order = this.ordered(agents, far);
+    const order = isSpace ? this.ordered(agents, far) : null;
     let size = null, colour = null, stamps = null;
     const ends = { left: wide, right: 0, low: tall, high: 0 };
     const ground = inBytes(stage), inks = Array.from({ length: 8 }, (_, k) => inBytes([...palette.subarray(3 * k, 3 * k + 3)]));
     for (let at = 0; at < agents; at += 1) {
-      const agent = order[at], k = agent * D;
+      const agent = isSpace ? order[at] : at, k = agent * D;
       const x = positions[k], y = D > 1 ? positions[k + 1] : 0, z = D > 2 ? positions[k + 2] : 0;
       const w = isSpace ? far[agent] : 1;
       // of the dead nothing is shown, nor of what is behind the eye
@@ -172,15 +171,14 @@ export class Painter {
       if (right > ends.right) ends.right = right;
       if (low < ends.low) ends.low = low;
       if (high > ends.high) ends.high = high;
+      const own = series[agent] === 255 ? 7 : series[agent] % 7, ink = inks[own];
       if (!isSpace && half <= LARGEST_STAMP && (!moves || seen > 0.99)) {
-        const own = series[agent] === 255 ? 7 : series[agent] % 7;
-        if (half !== size || own !== colour) [size, colour, stamps] = [half, own, this.stampsOf(half, contour, ratio, inks[own], ground)];
+        if (half !== size || own !== colour) [size, colour, stamps] = [half, own, this.stampsOf(half, contour, ratio, ink, ground)];
         const direction = moves ? Math.round(Math.atan2(ay, ax) * DIRECTIONS / 2 / Math.PI + DIRECTIONS) % DIRECTIONS : DIRECTIONS;
         this.stamp(stamps, direction, middle_x, middle_y);
         continue;
       }
       const thin = 1 / Math.max(seen, 0.4), by = 1 / (half * ratio);
-      const own = series[agent], ink = inks[own === 255 ? 7 : own % 7];
       const pale = fog > 0 ? 0.55 * clamped((w / fog - 0.7) / 0.6) : 0;
       const red = ink[0] + (ground[0] - ink[0]) * pale, green = ink[1] + (ground[1] - ink[1]) * pale, blue = ink[2] + (ground[2] - ink[2]) * pale;
       const depth = isSpace ? ((m[2] * x + m[6] * y + m[10] * z + m[14]) / w + 1) / 2 : 0;

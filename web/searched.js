@@ -69,3 +69,20 @@ export const table = (caption, heads, rows) => element("table", { className: "va
   ...(heads.length ? [element("thead", {}, element("tr", {}, ...heads.map((text) => element("th", { scope: "col", textContent: text }))))] : []),
   element("tbody", {}, ...rows.map(([head, ...cells]) => element("tr", {}, element("th", { scope: "row", textContent: head }),
     ...cells.map((cell) => (cell instanceof Node ? element("td", {}, cell) : element("td", { className: "number", textContent: cell })))))));
+
+/** Arrow keys go from cell to cell of a grid, over so many places at most where there is none. */
+export function walk(event, grid, gaps = 0) {
+  const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+  const { x, y } = event.target.dataset ?? {};
+  if (!step || x === undefined || event.altKey || event.ctrlKey || event.metaKey) return;
+  event.preventDefault();
+  event.stopPropagation();
+  for (let far = 1; far <= gaps + 1; far += 1) {
+    const next = one(`[data-x="${Number(x) + far * step[0]}"][data-y="${Number(y) + far * step[1]}"]`, grid);
+    if (!next) continue;
+    event.target.tabIndex = -1;
+    next.tabIndex = 0;
+    next.focus();
+    return;
+  }
+}

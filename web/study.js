@@ -1,7 +1,7 @@
 // A study: its cells as small multiples over its factors, and the trials of the cell that is chosen.
 
 import { css, endsOf, line, penOf } from "./paper.js";
-import { choice, table } from "./searched.js";
+import { choice, table, walk } from "./searched.js";
 import { copyButton } from "./vector.js";
 import { clamp, element, one, titled, withUnit, written } from "./words.js";
 
@@ -77,7 +77,7 @@ export class StudyView {
       return element("td", {}, cell === undefined ? "" : this.cell(cell, x, y));
     }))));
     grid.append(body);
-    grid.addEventListener("keydown", (event) => this.key(event, grid));
+    grid.addEventListener("keydown", (event) => walk(event, grid));
     const first = one("button.multiple", grid);
     if (first) first.tabIndex = 0;
     return element("div", { className: "scroll" }, grid);
@@ -146,19 +146,6 @@ export class StudyView {
         });
       });
     } };
-  }
-
-  key(event, grid) {
-    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-    const { x, y } = event.target.dataset ?? {};
-    if (!step || x === undefined || event.altKey || event.ctrlKey || event.metaKey) return;
-    event.preventDefault();
-    event.stopPropagation();
-    const next = one(`[data-x="${Number(x) + step[0]}"][data-y="${Number(y) + step[1]}"]`, grid);
-    if (!next) return;
-    event.target.tabIndex = -1;
-    next.tabIndex = 0;
-    next.focus();
   }
 
   choose(index) {

@@ -102,8 +102,13 @@ export function asSvg({ title, wide, tall, rows, draw, svg }) {
   return new XMLSerializer().serializeToString(pen.svg);
 }
 
-/** A button that copies a drawing as SVG with its data; where the browser does not allow that, it saves it. `what()` is as for [`asSvg`]. */
-export function copyButton(title, what) {
+const fileOf = (title) => title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "") || "figure";
+
+/**
+ * A button that copies a drawing as SVG with its data; where the browser does not allow that, it saves it. `what()` is as for
+ * [`asSvg`], or has the `text` of an SVG.
+ */
+export function copyButton(title, what, file = fileOf(title)) {
   const button = element("button", { type: "button", className: "quiet copy", textContent: "Copy", title: `Copy ${title} as SVG with its data` });
   button.setAttribute("aria-label", button.title);
   button.addEventListener("click", async (event) => {
@@ -111,9 +116,9 @@ export function copyButton(title, what) {
     const drawing = what();
     // what has not come yet cannot be copied
     if (!drawing) return;
-    const svg = asSvg({ title, ...drawing });
+    const svg = drawing.text ?? asSvg({ title, ...drawing });
     let word = "Copied";
-    try { await navigator.clipboard.writeText(svg); } catch { save(`${title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "") || "figure"}.svg`, svg, "image/svg+xml"); word = "Saved"; }
+    try { await navigator.clipboard.writeText(svg); } catch { save(`${file}.svg`, svg, "image/svg+xml"); word = "Saved"; }
     button.textContent = word;
     say(`${title}: ${word}`);
     setTimeout(() => { button.textContent = "Copy"; }, 2000);
