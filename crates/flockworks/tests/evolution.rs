@@ -220,6 +220,7 @@ holds = "all(meals_end > 0)"
 [[claim]]
 id = "same"
 text = "A contender has one fitness"
+strength = "A"
 number = "contest.fitness[who = champion, selection = rank] - contest.fitness[who = champion, selection = rank]"
 holds = "contest.fitness[who = single, selection = rank] == contest.fitness[who = single, selection = rank] + 1"
 "#;
@@ -231,7 +232,9 @@ fn variants_and_contests_are_the_same_however_they_came_about() {
     std::fs::write(folder.join("asked.toml"), ASKED).unwrap();
     let told = done(&folder, &["check", "asked.toml"]);
     assert!(told.contains("2 variants of 2 runs"), "{told}");
-    done(&folder, &["run", "asked.toml", "--out", "whole", "--threads", "3"]);
+    let told = done(&folder, &["run", "asked.toml", "--out", "whole", "--threads", "3"]);
+    assert!(told.contains("holds            alive: Somebody eats"), "{told}");
+    assert!(told.contains("does not hold    same: "), "{told}");
     done(&folder, &["run", "asked.toml", "--out", "parts", "--threads", "1", "--set", "generations=2"]);
     done(&folder, &["run", "asked.toml", "--out", "parts", "--threads", "1"]);
     let contest = |name: &str| std::fs::read(folder.join(name).join("contest.parquet")).unwrap();
@@ -243,9 +246,18 @@ fn variants_and_contests_are_the_same_however_they_came_about() {
     std::fs::write(&log, &bytes[..bytes.len() - bytes.len() / 20]).unwrap();
     done(&folder, &["run", "asked.toml", "--out", "whole"]);
     assert_eq!(contest("whole"), contest("parts"));
+    let judged = flockworks(&folder, &["run", "asked.toml", "--out", "whole", "--must-hold"]);
+    assert_eq!(judged.status.code(), Some(1));
     assert!(folder.join("whole/champion-2.toml").exists());
     let page = std::fs::read_to_string(folder.join("whole/report.html")).unwrap();
-    for words in ["Contest: roulette", "no_avoidance", "Alleles of c_3", "does not hold", "Alleles of cohesion"] {
+    for words in [
+        "Contest: roulette",
+        "no_avoidance",
+        "Alleles of c_3",
+        "does not hold",
+        "Alleles of cohesion",
+        "Fitness: roulette",
+    ] {
         assert!(page.contains(words), "{words}");
     }
     done(&folder, &["report", "whole"]);

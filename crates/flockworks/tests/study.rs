@@ -398,6 +398,28 @@ fn statements_that_must_hold_decide_how_it_ends() {
 }
 
 #[test]
+fn a_statement_says_what_it_is_about_and_how_sure_it_must_be() {
+    let folder = fresh("about-these");
+    let claim = "holds = \"order[noise = 0, size = small] > order[noise = 4, size = small]\"";
+    // one trial says nothing of others, but it is what it is
+    for (more, trials, verdict, why) in [
+        ("", "1", "cannot be judged", "a single trial says nothing"),
+        ("exact = true", "1", "holds", "said of these very trials"),
+        ("doubt = 0.005", "4", "holds", "at most 0.5 % may disagree"),
+    ] {
+        let study = file(&folder, &[(claim, &format!("{claim}\n{more}"))]);
+        let out = folder.join(format!("{}-{trials}", more.split(' ').next().unwrap()));
+        let ended = run(&study, &out, &["--set", &format!("trials={trials}")]);
+        let said = text(&ended.stdout);
+        assert!(said.contains(&format!("{verdict:17}falls")), "{more}: {said}");
+        let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+        assert!(page.contains(why), "{more}: {why}");
+    }
+    let study = file(&folder, &[(claim, &format!("{claim}\ndoubt = 0.6"))]);
+    refused(&["check", &study], &["doubt", "0.6"]);
+}
+
+#[test]
 fn members_in_a_box_and_other_statistics() {
     let folder = fresh("statistics");
     let box_ = "of.inside = { low = [0, 0], high = [5, 100] }";

@@ -1,5 +1,6 @@
 //! `kind = "evolution"`: a search over values of a scenario.
 
+use super::study::{MUST_HOLD, held, stated};
 use super::{Input, Kind, shown};
 use crate::fault::{Fault, wrong};
 use crate::run::{self, INTERRUPTED, PROGRAM, QUIET, RunOptions, rate, text_of};
@@ -55,7 +56,8 @@ impl Kind for Evolution {
         Ok(format!("{genes} genes, {} generations, {each}", plan.generations))
     }
     fn run(&self, mut input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
-        if let Some(option) = options.study.given() {
+        let others = options.study.given().filter(|&option| option != MUST_HOLD);
+        if let Some(option) = others {
             return wrong(format!("`{}` is an evolution, and {option} is for studies", input.name));
         }
         if let Some(seed) = options.seed {
@@ -86,8 +88,9 @@ impl Kind for Evolution {
         } else {
             writeln!(out, "all generations were there already")?;
         }
+        stated(&outcome.judgements, out)?;
         told(&outcome.folder, out)?;
-        Ok(0)
+        Ok(u8::from(options.study.must_hold && !held(&outcome.judgements)))
     }
     fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
         // the world as it is with the references: a champion's is a scenario file of its own

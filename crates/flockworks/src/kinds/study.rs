@@ -43,6 +43,9 @@ pub struct StudyOptions {
     pub must_hold: bool,
 }
 
+/// An option of all kinds that judge statements as studies do.
+pub(super) const MUST_HOLD: &str = "--must-hold";
+
 impl StudyOptions {
     /// The first option that was given, for kinds that have none of them.
     pub(super) fn given(&self) -> Option<&'static str> {
@@ -53,7 +56,7 @@ impl StudyOptions {
             (self.shard.is_some(), "--shard"),
             (self.cell.is_some(), "--cell"),
             (self.trial.is_some(), "--trial"),
-            (self.must_hold, "--must-hold"),
+            (self.must_hold, MUST_HOLD),
         ];
         given.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
     }
@@ -141,9 +144,7 @@ impl Kind for Study {
         }
         stated(&outcome.judgements, out)?;
         told(&outcome.folder, out)?;
-        let must = |own: &&Judgement| own.claim.strength == Strength::A && own.claim.holds.is_some();
-        let held = outcome.judgements.iter().filter(must).all(|own| own.judged.verdict == Verdict::Holds);
-        Ok(u8::from(own.must_hold && !held))
+        Ok(u8::from(own.must_hold && !held(&outcome.judgements)))
     }
     fn view(&self, input: &Input, options: &ViewOptions) -> Result<(String, String), Fault> {
         let plan = read(input, false)?;
@@ -165,8 +166,14 @@ impl Kind for Study {
     }
 }
 
+/// Whether every statement that must hold does.
+pub(super) fn held(judgements: &[Judgement]) -> bool {
+    let must = |own: &&Judgement| own.claim.strength == Strength::A && own.claim.holds.is_some();
+    judgements.iter().filter(must).all(|own| own.judged.verdict == Verdict::Holds)
+}
+
 /// The statements, each with its verdict.
-fn stated(judgements: &[Judgement], out: &mut dyn Write) -> Result<(), Fault> {
+pub(super) fn stated(judgements: &[Judgement], out: &mut dyn Write) -> Result<(), Fault> {
     for Judgement { part, claim, judged } in judgements {
         let part = if part.is_empty() { String::new() } else { format!("{part}.") };
         writeln!(out, "{:17}{part}{}: {}", judged.verdict.words(), claim.id, claim.text)?;

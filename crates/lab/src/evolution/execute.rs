@@ -13,6 +13,7 @@ use crate::store::StoreError;
 use crate::store::folder::Folder;
 use crate::store::job::{File, Job, Kind};
 use crate::store::log::{Log, Record};
+use crate::study::claims::Judgement;
 use core::ops::{ControlFlow, Range};
 use search::elites::{Elites, Told};
 use search::evolution_strategy::EvolutionStrategy;
@@ -102,6 +103,8 @@ pub struct Outcome {
     pub seconds: f64,
     /// Scores of the champions, by run and its name.
     pub champions: Vec<(String, Option<f64>)>,
+    /// The statements of a complete evolution with what the data say of them.
+    pub judgements: Vec<Judgement>,
 }
 
 /// What the folder of an evolution holds, and what may be added to it.
@@ -159,8 +162,10 @@ pub fn run(
     let done = done.and_then(|done| Ok((done, contests?)));
     let ((generations, updates), contests) = done.map_err(|error| job.fail(error))?;
     job.note(&[("seconds", json!(seconds)), ("generations", json!(generations))]);
+    let mut judgements = Vec::new();
     if let Some(contests) = &contests {
-        finish(&job.folder, variants, &history.runs, contests, program)?;
+        judgements = report::judgements(variants, &history.runs, contests);
+        finish(&job.folder, variants, &history.runs, (contests, &judgements), program)?;
     }
     job.end(complete)?;
     let score = |(k, run): (usize, &Run)| {
@@ -171,7 +176,7 @@ pub fn run(
     };
     let champions = history.runs.iter().enumerate().map(score).collect();
     let left = if contests.is_some() { 0 } else { left.max(1) };
-    Ok(Outcome { folder: path, left, generations, updates, seconds, champions })
+    Ok(Outcome { folder: path, left, generations, updates, seconds, champions, judgements })
 }
 
 /// Makes the page of a complete folder anew.
@@ -187,7 +192,10 @@ pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
     // what is missing of a contest is not made here
     let contests = if complete { contests(&variants, 1, &mut history, || true)? } else { None };
     match contests {
-        Some(contests) => finish(&folder, &variants, &history.runs, &contests, program),
+        Some(contests) => {
+            let judgements = report::judgements(&variants, &history.runs, &contests);
+            finish(&folder, &variants, &history.runs, (&contests, &judgements), program)
+        }
         None => Err(StoreError::Refused(format!("`{}` is not complete; the same run command goes on", path.display()))),
     }
 }
@@ -197,7 +205,7 @@ fn finish(
     folder: &Folder,
     variants: &Variants,
     runs: &[Run],
-    contests: &[Contest],
+    (contests, judgements): (&[Contest], &[Judgement]),
     program: &str,
 ) -> Result<(), StoreError> {
     tables::write(folder, variants, runs, contests)?;
@@ -206,7 +214,7 @@ fn finish(
             folder.write_text(&champion_file(variant), &text)?;
         }
     }
-    folder.write_text(REPORT, &crate::report::html(&report::page(variants, runs, contests, program)))
+    folder.write_text(REPORT, &crate::report::html(&report::page(variants, runs, (contests, judgements), program)))
 }
 
 /// Name of the champion's file of a variant, which counts from 0.

@@ -10,6 +10,7 @@ use super::tables::Spread;
 use super::variants::Variants;
 use crate::report::of_run::{paragraphs, short};
 use crate::report::{Axis, Fact, Figure, Line, Lines, Listing, Page, Table};
+use crate::study::claims::Judgement;
 use crate::study::report::{Answers, csv};
 use measure::statistics::{linear_regression, mean_interval, paired_t_test};
 
@@ -25,8 +26,19 @@ const COUNTED: usize = 200;
 /// A champion: place of its run among all, genes, score.
 type Champion<'a> = (usize, &'a [f64], f64);
 
+/// The statements of an evolution with what the data say of them.
+pub fn judgements(variants: &Variants, runs: &[Run], contests: &[Contest]) -> Vec<Judgement> {
+    let (study, results) = answers::of(variants, runs, contests);
+    crate::study::report::judgements(&study, &results)
+}
+
 /// The page.
-pub fn page(variants: &Variants, runs: &[Run], contests: &[Contest], program: &str) -> Page {
+pub fn page(
+    variants: &Variants,
+    runs: &[Run],
+    (contests, judgements): (&[Contest], &[Judgement]),
+    program: &str,
+) -> Page {
     let plan = variants.first();
     let of = |(k, run): (usize, &'_ Run)| {
         (k, run.champion(&variants.plans[variants.of_run(k).0]).map(|(g, s)| (g.to_vec(), s)))
@@ -35,10 +47,9 @@ pub fn page(variants: &Variants, runs: &[Run], contests: &[Contest], program: &s
         runs.iter().enumerate().map(of).filter_map(|(k, champion)| champion.map(|(g, s)| (k, g, s))).collect();
     let champions: Vec<Champion<'_>> = found.iter().map(|(k, genes, score)| (*k, genes.as_slice(), *score)).collect();
     let course = Course { variants, runs };
-    let mut figures = vec![
-        course.fitness("fitness-mean", "Mean fitness of a generation", |spread| spread.mean),
-        course.fitness("fitness-best", "Best fitness of a generation", |spread| spread.best),
-    ];
+    let mut figures = course.panels();
+    figures.extend(course.fitness("fitness-mean", "Mean fitness of a generation", |spread| spread.mean));
+    figures.extend(course.fitness("fitness-best", "Best fitness of a generation", |spread| spread.best));
     figures.extend(course.kept());
     figures.extend(course.followed());
     figures.extend(course.genes());
@@ -53,9 +64,8 @@ pub fn page(variants: &Variants, runs: &[Run], contests: &[Contest], program: &s
     let mut summary = summary(variants, runs, &champions);
     if asks(plan) {
         let (study, results) = answers::of(variants, runs, contests);
-        let judgements = crate::study::report::judgements(&study, &results);
         let Answers { figures: drawn, sentences, tables: more, facts } =
-            crate::study::report::answers(&study, &results, &judgements);
+            crate::study::report::answers(&study, &results, judgements);
         // what was asked comes first
         figures = drawn.into_iter().chain(figures).collect();
         methods.extend(sentences);
@@ -100,8 +110,12 @@ fn thinning(generations: usize) -> String {
     }
 }
 
-/// Lines shown at most: one more would not be told apart.
+/// Lines of a figure, at most: one more would not be told apart.
 const LINES: usize = 8;
+
+fn generations() -> Axis {
+    Axis { label: "generation".into(), unit: String::new(), range: None }
+}
 
 /// The course of the generations.
 struct Course<'a> {
@@ -110,51 +124,82 @@ struct Course<'a> {
 }
 
 impl Course<'_> {
-    /// A line for each run; where variants differ, one for each of them, the mean of its runs.
+    /// A value of each generation of a run.
+    fn of_run(&self, run: usize, value: &dyn Fn(&Plan, &Generation) -> f64) -> Vec<f64> {
+        let plan = &self.variants.plans[self.variants.of_run(run).0];
+        self.runs[run].generations.iter().map(|one| value(plan, one)).collect()
+    }
+
+    /// The mean of it over the runs of a variant.
+    fn of_variant(&self, variant: usize, value: &dyn Fn(&Plan, &Generation) -> f64) -> Vec<f64> {
+        let each = self.variants.runs();
+        let own: Vec<Vec<f64>> = (variant * each..(variant + 1) * each).map(|run| self.of_run(run, value)).collect();
+        let mean = |k: usize| Spread::of(&own.iter().filter_map(|run| run.get(k).copied()).collect::<Vec<_>>()).mean;
+        (0..self.variants.plans[variant].generations).map(mean).collect()
+    }
+
+    /// What is said of the points of lines.
+    fn points(&self, about: &str) -> String {
+        let (plan, each) = (self.variants.first(), self.variants.runs());
+        let several = self.variants.plans.len() > 1;
+        let means = if several && each > 1 { format!(" Means of {each} runs.") } else { String::new() };
+        format!("{about}{}{means}", thinning(plan.generations))
+    }
+
+    /// A line for each run; where variants differ, one for each of them, the mean of its runs. Several figures where the lines
+    /// of one would not be told apart.
     fn lines(
         &self,
         (id, title, about): (&str, &str, &str),
         y: Axis,
         value: impl Fn(&Plan, &Generation) -> f64,
-    ) -> Lines {
+    ) -> Vec<Lines> {
         let Self { variants, runs } = self;
-        let each = variants.runs();
-        let of_run = |k: usize| -> Vec<f64> {
-            let plan = &variants.plans[variants.of_run(k).0];
-            runs[k].generations.iter().map(|one| value(plan, one)).collect()
-        };
-        let of_variant = |variant: usize| {
-            let own: Vec<Vec<f64>> = (variant * each..(variant + 1) * each).map(of_run).collect();
-            let mean =
-                |k: usize| Spread::of(&own.iter().filter_map(|run| run.get(k).copied()).collect::<Vec<_>>()).mean;
-            let values: Vec<f64> = (0..variants.plans[variant].generations).map(mean).collect();
-            thinned(variants.name(variant), &values)
-        };
         let several = variants.plans.len() > 1;
         let all = if several { variants.plans.len() } else { runs.len() };
-        let shown = all.min(LINES);
-        let lines = match several {
-            true => (0..shown).map(of_variant).collect(),
-            false => (0..shown).map(|k| thinned(format!("run {}", k + 1), &of_run(k))).collect(),
+        let line = |k: usize| match several {
+            true => thinned(variants.name(k), &self.of_variant(k, &value)),
+            false => thinned(format!("run {}", k + 1), &self.of_run(k, &value)),
         };
-        let mut about = format!("{about}{}", thinning(variants.first().generations));
-        if several && each > 1 {
-            about += &format!(" Means of {each} runs.");
-        }
-        if all > shown {
-            about += &format!(" The first {shown} of {all}.");
-        }
-        Lines {
-            id: id.to_owned(),
-            title: title.to_owned(),
-            about,
-            x: Axis { label: "generation".into(), unit: String::new(), range: None },
-            y,
-            lines,
-        }
+        let about = self.points(about);
+        let parts = all.div_ceil(LINES).max(1);
+        let part = |part: usize| Lines {
+            id: if part == 0 { id.to_owned() } else { format!("{id}-{}", part + 1) },
+            title: if parts == 1 { title.to_owned() } else { format!("{title}, part {} of {parts}", part + 1) },
+            about: about.clone(),
+            x: generations(),
+            y: y.clone(),
+            lines: (all * part / parts..all * (part + 1) / parts).map(line).collect(),
+        };
+        (0..parts).map(part).collect()
     }
 
-    fn fitness(&self, id: &str, title: &str, of: impl Fn(Spread) -> f64) -> Lines {
+    /// A figure for each variant: the fitness of the best, of all in the mean, and of the worst.
+    fn panels(&self) -> Vec<Lines> {
+        let variants = self.variants;
+        if variants.plans.len() < 2 {
+            return Vec::new();
+        }
+        let kinds: [(&str, fn(&Spread) -> f64); 3] =
+            [("best", |spread| spread.best), ("mean", |spread| spread.mean), ("worst", |spread| spread.worst)];
+        let panel = |variant: usize| Lines {
+            id: format!("fitness-{}", variant + 1),
+            title: format!("Fitness: {}", variants.name(variant)),
+            about: self.points("The best candidate of a generation, the mean of all, the worst."),
+            x: generations(),
+            y: Axis { label: "fitness".into(), unit: String::new(), range: None },
+            lines: kinds
+                .iter()
+                .map(|(name, of)| {
+                    let value = |plan: &Plan, one: &Generation| of(&Spread::of(plan.own(&one.evaluated.scores)));
+                    thinned((*name).to_owned(), &self.of_variant(variant, &value))
+                })
+                .collect(),
+        };
+        (0..variants.plans.len()).map(panel).collect()
+    }
+
+    fn fitness(&self, id: &str, title: &str, of: impl Fn(Spread) -> f64) -> Vec<Lines> {
         let y = Axis { label: "fitness".into(), unit: String::new(), range: None };
         let about = format!("Fitness is {}.", self.variants.first().form.fitness);
         self.lines((id, title, &about), y, |plan, one| of(Spread::of(plan.own(&one.evaluated.scores))))
@@ -173,7 +218,7 @@ impl Course<'_> {
                 Spread::of(&one.evaluated.kept.iter().filter_map(|row| row.get(k).copied()).collect::<Vec<_>>()).mean
             })
         };
-        plan.kept().into_iter().enumerate().map(lines).collect()
+        plan.kept().into_iter().enumerate().flat_map(lines).collect()
     }
 
     /// What is followed beside the genes, the mean of a generation.
@@ -188,7 +233,7 @@ impl Course<'_> {
                 Spread::of(&own.map(|genes| followed(plan, genes)[k]).collect::<Vec<_>>()).mean
             })
         };
-        plan.form.follow.0.iter().enumerate().map(lines).collect()
+        plan.form.follow.0.iter().enumerate().flat_map(lines).collect()
     }
 
     /// Mean of each gene over its reference.
@@ -202,7 +247,7 @@ impl Course<'_> {
                 own.iter().map(|genes| genes[k]).sum::<f64>() / own.len() as f64
             })
         };
-        self.variants.first().axes.iter().enumerate().map(lines).collect()
+        self.variants.first().axes.iter().enumerate().flat_map(lines).collect()
     }
 }
 

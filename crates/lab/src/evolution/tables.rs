@@ -5,7 +5,7 @@ use super::execute::{Generation, Run};
 use super::variants::Variants;
 use crate::store::StoreError;
 use crate::store::folder::Folder;
-use crate::store::table::{Heading, Kind, Values, write_table};
+use crate::store::table::{Heading, Kind, Values, write_rows, write_table};
 use crate::study::plan::Varied;
 use std::sync::Arc;
 
@@ -79,11 +79,10 @@ pub const RESERVED: [&str; 22] = [
 /// Where the system refuses.
 pub fn write(folder: &Folder, variants: &Variants, runs: &[Run], contests: &[Contest]) -> Result<(), StoreError> {
     let notes = [("flockworks.title".to_owned(), variants.first().form.title.clone())];
-    let mut all = vec![
-        (GENERATIONS, generations(variants, runs)),
-        (CANDIDATES, candidates(variants, runs)),
-        (CHAMPIONS, champions(variants, runs)),
-    ];
+    // of these there may be millions
+    write_rows(folder, GENERATIONS, rows_of(variants, runs), |rows| generations(variants, rows), &notes)?;
+    write_rows(folder, CANDIDATES, candidates_of(variants, runs), |rows| candidates(variants, rows), &notes)?;
+    let mut all = vec![(CHAMPIONS, champions(variants, runs))];
     if !contests.is_empty() {
         all.push((CONTEST, contest(variants, contests)));
     }
@@ -122,9 +121,8 @@ fn long(values: impl Iterator<Item = usize>) -> Values {
     Values::Long(values.map(|value| value as i64).collect())
 }
 
-fn generations(variants: &Variants, runs: &[Run]) -> Filled {
+fn generations(variants: &Variants, rows: &[(usize, usize, usize, &Generation)]) -> Filled {
     let plan = variants.first();
-    let rows: Vec<(usize, usize, usize, &Generation)> = rows_of(variants, runs).collect();
     let spreads: Vec<Spread> = rows.iter().map(|(.., one)| Spread::of(plan.own(&one.evaluated.scores))).collect();
     let mut table = begun(variants, &rows.iter().map(|row| row.0).collect::<Vec<_>>());
     add(&mut table, of_run(), long(rows.iter().map(|row| row.1 + 1)));
@@ -165,12 +163,17 @@ fn of_run() -> Heading {
     Heading::new("run", "1", "Number of the run, from 1.", Kind::Long)
 }
 
-fn candidates(variants: &Variants, runs: &[Run]) -> Filled {
-    let each = |(variant, run, number, one)| {
-        let one: &Generation = one;
+/// Variant, run (from 0), number, candidate and generation of all candidates.
+fn candidates_of<'a>(
+    variants: &'a Variants,
+    runs: &'a [Run],
+) -> impl Iterator<Item = (usize, usize, usize, usize, &'a Generation)> + 'a {
+    rows_of(variants, runs).flat_map(|(variant, run, number, one)| {
         (0..one.candidates.len()).map(move |candidate| (variant, run, number, candidate, one))
-    };
-    let rows: Vec<(usize, usize, usize, usize, &Generation)> = rows_of(variants, runs).flat_map(each).collect();
+    })
+}
+
+fn candidates(variants: &Variants, rows: &[(usize, usize, usize, usize, &Generation)]) -> Filled {
     let mut table = begun(variants, &rows.iter().map(|row| row.0).collect::<Vec<_>>());
     add(&mut table, of_run(), long(rows.iter().map(|row| row.1 + 1)));
     let about = "Number of the generation, from 0.";

@@ -129,7 +129,8 @@ impl Searched for Evolved {
         Ok(Watched::Scenario { name, text: toml(&tree), seed: None })
     }
     fn page(&self, program: &str) -> Page {
-        report::page(&self.variants, &self.runs, &self.contests, program)
+        let judgements = report::judgements(&self.variants, &self.runs, &self.contests);
+        report::page(&self.variants, &self.runs, (&self.contests, &judgements), program)
     }
     fn telling(&self) -> Vec<At> {
         // the last generation of the run that came furthest, and beside it the first

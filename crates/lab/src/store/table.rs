@@ -380,6 +380,26 @@ pub fn write_table(
     folder.write(name, |out| join(out, headings, notes, blocks).map(|_| ()))
 }
 
+/// Writes a table whose columns are made of its rows, a block at a time: of many rows only those of one block are held as columns.
+///
+/// # Errors
+/// As of [`write_table`].
+pub fn write_rows<R>(
+    folder: &super::folder::Folder,
+    name: &str,
+    mut rows: impl Iterator<Item = R>,
+    columns: impl Fn(&[R]) -> (Vec<Heading>, Vec<Values>),
+    notes: &[(String, String)],
+) -> Result<(), StoreError> {
+    let headings = columns(&[]).0;
+    let mut made = Blocks::new(&headings)?;
+    let blocks = core::iter::from_fn(|| {
+        let block: Vec<R> = rows.by_ref().take(ROWS).collect();
+        (!block.is_empty()).then(|| made.next(columns(&block).1))
+    });
+    folder.write(name, |out| join(out, &headings, notes, blocks).map(|_| ()))
+}
+
 fn slice(values: &Values, from: usize, rows: usize) -> Values {
     let range = from..(from + ROWS).min(rows);
     match values {

@@ -3,7 +3,7 @@
 //! A statement is an expression over means of cells. How sure its verdict is comes from drawing the trials again, with
 //! replacement (the bootstrap): since every cell has the same seeds, the same trials are drawn for all cells at once. It
 //! holds where it is true of nearly every such drawing, it does not hold where it is true of nearly none, and else the
-//! trials are too few to judge.
+//! trials are too few to judge. A statement about the very trials that were made needs no drawings.
 
 use super::execute::Results;
 use super::expression::{Expression, Mistake, Names, Selector, Value};
@@ -17,8 +17,8 @@ use space::spelling::nearest;
 
 /// Times that the trials are drawn again.
 const DRAWINGS: usize = 400;
-/// Share of the drawings that may disagree.
-const DOUBT: f64 = 0.025;
+/// What an interval leaves out on each side.
+const OUTSIDE: f64 = 0.025;
 
 /// What the data say of a statement.
 #[derive(Clone, Debug, PartialEq)]
@@ -336,7 +336,7 @@ pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawing
     let cells = parts.flat_map(|part| part.cells.clone());
     let fewest = cells.map(|cell| of_cell(plan, results, cell).count()).min().unwrap_or(0);
     let (mut drawn, mut held) = (vec![Vec::new(); number.len()], 0.0);
-    for counts in &drawings.counts {
+    for counts in drawings.counts.iter().filter(|_| !claim.exact) {
         let mean = |cell: usize, reading: usize| {
             let weighted = values(cell, reading).map(|(trial, v)| (v, counts.get(trial - 1).copied().unwrap_or(0.0)));
             let (sum, count) =
@@ -356,17 +356,20 @@ pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawing
     let share = held / drawings.counts.len().max(1) as f64;
     let verdict = match truth {
         Err(what) => Verdict::CannotBeJudged(what),
+        Ok(true) if claim.exact => Verdict::Holds,
+        Ok(false) if claim.exact => Verdict::DoesNotHold,
         Ok(_) if fewest < 2 => Verdict::CannotBeJudged("a single trial says nothing of how sure it is".to_owned()),
-        Ok(true) if share >= 1.0 - DOUBT => Verdict::Holds,
-        Ok(false) if share <= DOUBT => Verdict::DoesNotHold,
+        Ok(true) if share >= 1.0 - claim.doubt => Verdict::Holds,
+        Ok(false) if share <= claim.doubt => Verdict::DoesNotHold,
         Ok(truth) => {
             let is = if truth { "true" } else { "false" };
             let what = format!("{is} of the means, but true in {:.0} % of the drawings", 100.0 * share);
             Verdict::CannotBeJudged(what)
         }
     };
-    let judged = claim.holds.is_some() && !drawings.counts.is_empty();
-    Judged { number, interval: drawn.iter_mut().map(middle).collect(), verdict, share: judged.then_some(share) }
+    let judged = claim.holds.is_some() && !claim.exact && !drawings.counts.is_empty();
+    let interval = if claim.exact { Vec::new() } else { drawn.iter_mut().map(middle).collect() };
+    Judged { number, interval, verdict, share: judged.then_some(share) }
 }
 
 /// The middle 95 % of numbers.
@@ -377,5 +380,5 @@ fn middle(numbers: &mut Vec<f64>) -> (f64, f64) {
         let place = ((numbers.len() as f64 - 1.0) * share).round().max(0.0) as usize;
         numbers.get(place).copied().unwrap_or(f64::NAN)
     };
-    (at(DOUBT), at(1.0 - DOUBT))
+    (at(OUTSIDE), at(1.0 - OUTSIDE))
 }

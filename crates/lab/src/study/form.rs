@@ -510,6 +510,10 @@ form! {
         published: String = [""], "", Any;
         /// When it holds: an expression that is true or false.
         holds: Option<String> = none, "", Any;
+        /// Share of the drawings of the trials that may disagree with a verdict, on one side.
+        doubt: f64 = [0.025], "1", Within(0.0, 0.5);
+        /// Whether it is about these very trials, not about what they are drawn from: its values alone judge it.
+        exact: bool = [false], "", Any;
     }
 }
 

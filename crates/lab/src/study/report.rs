@@ -13,6 +13,8 @@ use std::fmt::Write;
 
 /// Level at which tests are called significant.
 const LEVEL: f64 = 0.05;
+/// Share of the drawings that may disagree with a statement that says nothing of it.
+const DOUBT: f64 = 0.025;
 /// Cells that are listed in the page; all are in the table.
 const LISTED: usize = 300;
 
@@ -68,7 +70,8 @@ pub(crate) fn answers(plan: &Plan, results: &Results, judgements: &[Judgement]) 
         let header = ["", "statement", "source", "strength", "ours", "95 % interval", "published", "verdict", "why"];
         let header: Vec<String> = header.iter().map(|&name| name.to_owned()).collect();
         let about = "A statement holds where it is true of the means and of nearly every drawing of the trials, with \
-                     replacement, the same trials in all cells (bootstrap, 400 drawings, at most 2.5 % against it).";
+                     replacement, the same trials in all cells (bootstrap, 400 drawings, at most 2.5 % against it, \
+                     where nothing else is said).";
         listings.push(Listing { title: "Statements".into(), about: about.into(), header, rows: statements });
     }
     if !test_rows.is_empty() {
@@ -79,14 +82,17 @@ pub(crate) fn answers(plan: &Plan, results: &Results, judgements: &[Judgement]) 
             "Tukey-Kramer comparisons of all pairs after the analyses of variance in Methods. The effect is Hedges' g.";
         listings.push(Listing { title: "Pairs compared".into(), about: about.into(), header, rows: test_rows });
     }
-    let cells = cell_rows(plan, results);
-    if cells.1.len() <= LISTED {
-        listings.push(Listing {
-            title: "Cells".into(),
-            about: "Means over trials with their standard errors.".into(),
-            header: cells.0.clone(),
-            rows: cells.1.clone(),
-        });
+    if plan.cells.len() <= LISTED {
+        let several = plan.parts.len() > 1;
+        for part in plan.parts.iter().filter(|part| !part.cells.is_empty()) {
+            let (header, rows) = cell_rows(plan, results, part);
+            listings.push(Listing {
+                title: if several { format!("Cells: {}", part.name) } else { "Cells".to_owned() },
+                about: "Means over trials with their standard errors.".into(),
+                header,
+                rows,
+            });
+        }
     }
     let mut tables = vec![Table {
         file: "cells.csv".into(),
@@ -303,13 +309,21 @@ fn about_of(plan: &Plan, reading: usize) -> String {
     if reading.about.is_empty() { name.clone() } else { reading.about.clone() }
 }
 
+fn percent(share: f64) -> String {
+    format!("{} %", short(100.0 * share))
+}
+
 fn statement(part: &str, claim: &super::form::Claim, judged: &Judged) -> Vec<String> {
     let list = |numbers: Vec<String>| {
         if numbers.len() > 8 { format!("{}, ...", numbers[..8].join(", ")) } else { numbers.join(", ") }
     };
     let why = match (&judged.verdict, judged.share) {
         (Verdict::CannotBeJudged(why), _) => why.clone(),
-        (_, Some(share)) => format!("true in {:.0} % of the drawings", 100.0 * share),
+        (_, Some(share)) if claim.doubt == DOUBT => format!("true in {} of the drawings", percent(share)),
+        (_, Some(share)) => {
+            format!("true in {} of the drawings; at most {} may disagree", percent(share), percent(claim.doubt))
+        }
+        (_, None) if claim.exact => "said of these very trials".to_owned(),
         (_, None) => String::new(),
     };
     let source = if part.is_empty() { claim.source.clone() } else { format!("{} ({part})", claim.source) };
@@ -490,14 +504,18 @@ fn probability(p: f64) -> String {
     if p < 0.001 { "p < 0.001".to_owned() } else { format!("p = {p:.3}") }
 }
 
-/// Cells with their means and errors, written short.
-fn cell_rows(plan: &Plan, results: &Results) -> (Vec<String>, Vec<Vec<String>>) {
+/// The cells of a part with their means and errors, written short; readings that none of them has are left out.
+fn cell_rows(plan: &Plan, results: &Results, part: &Part) -> (Vec<String>, Vec<Vec<String>>) {
+    let trials = |cell: usize| of_cell(plan, results, cell).map(|(_, values)| values).collect::<Vec<&Vec<f64>>>();
+    let there =
+        |reading: &usize| part.cells.clone().any(|cell| trials(cell).iter().any(|own| own[*reading].is_finite()));
+    let readings: Vec<usize> = (0..plan.readings.len()).filter(there).collect();
     let mut header = vec!["cell".to_owned(), "levels".to_owned(), "trials".to_owned()];
-    header.extend(plan.readings.iter().map(|(name, _)| name.clone()));
-    let row = |(index, cell): (usize, &super::plan::Cell)| {
-        let trials: Vec<&Vec<f64>> = of_cell(plan, results, index).map(|(_, values)| values).collect();
-        let mut row = vec![(index + 1).to_string(), plan.name_of(cell), trials.len().to_string()];
-        for k in 0..plan.readings.len() {
+    header.extend(readings.iter().map(|&k| plan.readings[k].0.clone()));
+    let row = |cell: usize| {
+        let trials = trials(cell);
+        let mut row = vec![(cell + 1).to_string(), plan.name_of(&plan.cells[cell]), trials.len().to_string()];
+        for &k in &readings {
             let summary = Summary::of(trials.iter().map(|values| values[k]));
             let mean = if summary.mean.is_finite() { short(summary.mean) } else { "none".to_owned() };
             let error =
@@ -506,7 +524,7 @@ fn cell_rows(plan: &Plan, results: &Results) -> (Vec<String>, Vec<Vec<String>>) 
         }
         row
     };
-    (header, plan.cells.iter().enumerate().map(row).collect())
+    (header, part.cells.clone().map(row).collect())
 }
 
 /// Cells with their means and errors, as exact as they are.

@@ -132,6 +132,9 @@ const ATTRACTION: usize = 2;
 /// Directions shorter than this share of their parts do not turn anyone.
 const SHORT: f64 = 1e-9;
 
+/// Sines smaller than this are not trusted to tell an angle from a limit; several times the rounding of single precision.
+const UNSURE: f64 = 1e-5;
+
 /// Up to so many nearest are listed while looking.
 const KEPT: usize = BLOCK;
 
@@ -257,19 +260,55 @@ impl Sight for Selected<'_> {
     }
 }
 
+/// Limits of azimuth and elevation about a heading.
+struct Axes<R> {
+    angles: (R, R),
+    /// Cosine and sine of azimuth and elevation of the heading.
+    heading: [(R, R); 2],
+    /// Cosine and sine of the limits to either side, and up and down.
+    limits: [(R, R); 2],
+}
+impl<R: Scalar> Axes<R> {
+    fn of(law: &BehaviourSelection<R>, angles: (R, R)) -> Self {
+        let parts = |angle: R| {
+            let (sin, cos) = angle.sin_cos();
+            (cos, sin)
+        };
+        let (half, vertical) = law.half_angles();
+        Self { angles, heading: [parts(angles.0), parts(angles.1)], limits: [parts(half), parts(vertical)] }
+    }
+    /// What [`BehaviourSelection::sees_by_axes`] says, without its angles wherever rounding cannot decide: an angle is within a
+    /// limit where the sine of their difference is not positive.
+    #[inline(always)]
+    fn see(&self, law: &BehaviourSelection<R>, offset: Vector<R, 3>) -> bool {
+        let level = (offset[0].squared() + offset[1].squared()).root();
+        let turned = |(cos, sin): (R, R), along: R, across: R| (along * cos + across * sin, across * cos - along * sin);
+        let beyond = |(along, across): (R, R), (cos, sin): (R, R)| across.abs() * cos - along * sin;
+        let aside = beyond(turned(self.heading[0], offset[0], offset[1]), self.limits[0]);
+        let above = beyond(turned(self.heading[1], level, offset[2]), self.limits[1]);
+        let (near, far) = (level * R::of(UNSURE), (level + offset[2].abs()) * R::of(UNSURE));
+        if aside < -near && above < -far {
+            return true;
+        }
+        if above > far || (aside > near && level > R::TINY) {
+            return false;
+        }
+        law.sees_by_axes(self.angles, offset)
+    }
+}
+
 /// Sight within limits of azimuth and elevation.
 struct ByAxes<'a, R> {
     law: &'a BehaviourSelection<R>,
     seen: &'a Percepts<'a, R, 3>,
-    angles: (R, R),
+    axes: Axes<R>,
 }
 impl<R: Scalar> Sight for ByAxes<'_, R> {
     fn members(&self, set: usize, block: usize) -> u16 {
         let mut members = self.seen.marks[set][block];
         if set != AVOIDANCE || self.law.avoid_blind {
             for l in 0..BLOCK {
-                let hidden =
-                    members >> l & 1 == 1 && !self.law.sees_by_axes(self.angles, self.seen.at(block * BLOCK + l).0);
+                let hidden = members >> l & 1 == 1 && !self.axes.see(self.law, self.seen.at(block * BLOCK + l).0);
                 members &= !(u16::from(hidden) << l);
             }
         }
@@ -600,12 +639,15 @@ impl<R: Scalar> BehaviourSelection<R> {
             View::Axes => self.sees_by_axes(angles, offset),
         }
     }
+    /// How far one sees to either side, and up and down.
+    fn half_angles(&self) -> (R, R) {
+        (self.field_of_view.radians() * R::HALF, self.vertical_field_of_view.radians() * R::HALF)
+    }
     fn sees_by_axes(&self, (theta, phi): (R, R), offset: Vector<R, 3>) -> bool {
         let level = (offset[0].squared() + offset[1].squared()).root();
         let aside = (offset[1].atan2(offset[0]) - theta).wrapped().abs();
         let above = (offset[2].atan2(level) - phi).abs();
-        let (half, vertical) =
-            (self.field_of_view.radians() * R::HALF, self.vertical_field_of_view.radians() * R::HALF);
+        let (half, vertical) = self.half_angles();
         // straight above or below has no azimuth
         (aside <= half || level <= R::TINY) && above <= vertical
     }
@@ -896,7 +938,7 @@ impl<R: Scalar> Abreast<R, 3> for BehaviourSelection<R> {
             View::Cone => self.wished(me, seen, &Selected(seen.marks), draws),
             View::Axes => {
                 let angles = (me.own[THETA], me.own[PHI]);
-                self.wished(me, seen, &ByAxes { law: self, seen, angles }, draws)
+                self.wished(me, seen, &ByAxes { law: self, seen, axes: Axes::of(self, angles) }, draws)
             }
         }
     }
@@ -1066,6 +1108,48 @@ mod tests {
                 }
             }
         }
+    }
+
+    fn sees_alike<R: Scalar>() {
+        let number = |k: u64, d: u32| space::random::uniform(7, space::random::Purpose::Search, k, d);
+        let turn = |share: f64| R::of(360.0 * share).radians();
+        let values = oracle().plan.groups[0].parameters.clone();
+        let law = <BehaviourSelection<R> as crate::parameters::Parameters>::from_values(&values);
+        assert!(law.is_ok());
+        let Ok(mut law) = law else { return };
+        let mut seen = [0; 2];
+        for k in 0..20_000u64 {
+            law.field_of_view = R::of(360.0 * number(k, 0));
+            law.vertical_field_of_view = R::of(180.0 * number(k, 1));
+            let angles = (turn(number(k, 2) - 0.5), turn(0.5 * number(k, 3) - 0.25));
+            let axes = Axes::of(&law, angles);
+            // anywhere, and as near to a limit as can be told
+            let (half, vertical) = law.half_angles();
+            let slight = R::of(1e-6 * (number(k, 4) - 0.5));
+            for (theta, phi) in [
+                (turn(number(k, 5) - 0.5), turn(0.5 * number(k, 6) - 0.25)),
+                (angles.0 + half + slight, angles.1),
+                (angles.0 - half, angles.1 + slight),
+                (angles.0, angles.1 + vertical + slight),
+                (angles.0, angles.1 - vertical),
+            ] {
+                let offset = BehaviourSelection::heading_of(theta, phi) * R::of(10.0 * number(k, 7));
+                let exactly = law.sees_by_axes(angles, offset);
+                assert_eq!(axes.see(&law, offset), exactly, "{k}");
+                seen[usize::from(exactly)] += 1;
+            }
+            for offset in [[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1e-300], [1e-14, 0.0, 0.0], [1.0, 0.0, 0.0]] {
+                let offset = Vector(offset.map(R::of));
+                assert_eq!(axes.see(&law, offset), law.sees_by_axes(angles, offset), "{k} {offset:?}");
+            }
+        }
+        assert!(seen.iter().all(|&count| count > 10_000), "{seen:?}");
+    }
+
+    #[test]
+    fn limits_of_azimuth_and_elevation_are_told_without_angles() {
+        sees_alike::<f64>();
+        sees_alike::<f32>();
     }
 
     #[test]
