@@ -32,6 +32,7 @@
 //! ```
 
 pub mod behaviours;
+pub mod consensus;
 pub mod domains;
 pub mod ground;
 pub mod hull;

@@ -155,6 +155,8 @@ pub struct Around<'a, R, const D: usize> {
     pub space: &'a Space<R, D>,
     /// First id of the group, and its number of members.
     pub group: (u32, u32),
+    /// Angle in which the own body faces, where it keeps one (2-D).
+    pub facing: Option<R>,
 }
 
 impl<R: Real, const D: usize> Around<'_, R, D> {
@@ -189,6 +191,14 @@ impl<R: Real, const D: usize> Me<'_, R, D> {
     #[inline(always)]
     pub fn heading(&self) -> Vector<R, D> {
         self.heading
+    }
+    /// Where ahead is, at rest too: the direction in which the body faces where it keeps one, else the heading.
+    #[inline(always)]
+    pub fn ahead(&self) -> Vector<R, D> {
+        self.around.facing.map_or(self.heading, |angle| {
+            let (sin, cos) = angle.sin_cos();
+            Vector(core::array::from_fn(|a| [cos, sin, R::ZERO][a.min(2)]))
+        })
     }
     /// Index in the own group.
     #[inline(always)]

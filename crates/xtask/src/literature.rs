@@ -11,7 +11,8 @@ const STUDIES: &str = "studies/literature";
 /// Runs every study anew by the program as tests build it, which is optimised.
 pub(crate) fn test(workspace: &Workspace) -> Result<(), Failure> {
     let mut cargo = workspace.cargo();
-    cargo.args(["build", "--package", "flockworks"]);
+    // with an example, and so with what tests depend on: else other features would compile the engine once more
+    cargo.args(["build", "--workspace", "--bin", "flockworks", "--example", "sample_page"]);
     succeed(&mut cargo, "flockworks did not build")?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| workspace.path("target"), PathBuf::from);
     let (mut passed, mut failed) = (0, Vec::new());

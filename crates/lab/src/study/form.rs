@@ -1,5 +1,11 @@
 //! The forms of a study file: what is varied, how often it is tried, what is read off, what is claimed.
 
+use super::bearing::BearingReading;
+use super::consensus::ConsensusReading;
+use super::correlation::CorrelationReading;
+use super::emptied::EmptiedReading;
+use super::profile::ProfileReading;
+use super::reversals::ReversalReading;
 use crate::file::{Anything, Named, Nothing};
 use crate::{form, tagged, words};
 
@@ -433,6 +439,18 @@ tagged! {
         food => Food(FoodReading);
         /// The distance between obstacles.
         obstacle_distance => ObstacleDistance(ObstacleReading);
+        /// How uneven the density is along the way.
+        profile => Profile(ProfileReading);
+        /// How far departures from the common motion reach.
+        correlation => Correlation(CorrelationReading);
+        /// How well an agreement would hold.
+        consensus => Consensus(ConsensusReading);
+        /// Which way a group went.
+        bearing => Bearing(BearingReading);
+        /// How often it turned round.
+        reversals => Reversals(ReversalReading);
+        /// How long it takes until a box is empty.
+        emptied => Emptied(EmptiedReading);
     }
 }
 

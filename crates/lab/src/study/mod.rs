@@ -4,14 +4,20 @@
 //! trial. [`plan`] makes cells and conditions of it, [`execute`] runs what is missing and keeps it in an append-only log,
 //! [`tables`] writes the tables, [`claims`] judges statements, [`report`] draws the page.
 
+pub mod bearing;
 pub mod claims;
+pub mod consensus;
+pub mod correlation;
+pub mod emptied;
 pub mod execute;
 pub mod expression;
 pub mod form;
 mod ground;
 mod meals;
 pub mod plan;
+pub mod profile;
 pub mod report;
+pub mod reversals;
 pub mod tables;
 pub mod trial;
 mod way_points;

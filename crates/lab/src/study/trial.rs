@@ -1,5 +1,9 @@
 //! One trial: a condition's world with the seed of the trial, stepped to its end and looked at on the way.
 
+use super::bearing::Bearing;
+use super::consensus::Consensus;
+use super::correlation::CorrelationLength;
+use super::emptied::Emptied;
 use super::form::{
     ClusterQuantity, ClusterReading, ContactReading, CoverageReading, DetectionReading, GroundReading, InsideReading,
     LaneReading, Partner, PathQuantity, Quantity, ShareReading, Statistic, Whose,
@@ -7,6 +11,8 @@ use super::form::{
 use super::ground;
 use super::meals::Meals;
 use super::plan::{Condition, Plan, entry_place};
+use super::profile::Profile;
+use super::reversals::Reversals;
 use super::way_points::{WayPoints, detections};
 use crate::file::{Desk, Node};
 use crate::scenario::build;
@@ -174,18 +180,18 @@ pub fn rate(plan: &Plan, condition: &Condition, seconds: f64) -> Result<f64, Str
 }
 
 /// What can be seen at one moment: the living, in the order of their ids.
-struct Look<'w, R: Scalar, const D: usize> {
-    world: &'w World<R, D>,
-    space: Space<f64, D>,
-    ids: Vec<usize>,
-    rows: Vec<usize>,
-    positions: Vec<Vector<f64, D>>,
-    velocities: Vec<Vector<f64, D>>,
+pub(super) struct Look<'w, R: Scalar, const D: usize> {
+    pub(super) world: &'w World<R, D>,
+    pub(super) space: Space<f64, D>,
+    pub(super) ids: Vec<usize>,
+    pub(super) rows: Vec<usize>,
+    pub(super) positions: Vec<Vector<f64, D>>,
+    pub(super) velocities: Vec<Vector<f64, D>>,
     /// Time since the look before.
-    interval: f64,
+    pub(super) interval: f64,
     /// Whether it lies in the window in which most is read.
-    window: bool,
-    sample: Sample<D>,
+    pub(super) window: bool,
+    pub(super) sample: Sample<D>,
     clusters: std::cell::RefCell<Vec<(f64, std::rc::Rc<Clusters>)>>,
 }
 
@@ -223,7 +229,7 @@ impl<'w, R: Scalar, const D: usize> Look<'w, R, D> {
         clusters
     }
     /// The living of a group, or all of them.
-    fn members(&self, group: Option<usize>) -> Vec<usize> {
+    pub(super) fn members(&self, group: Option<usize>) -> Vec<usize> {
         let ids = group.map_or(0..usize::MAX, |group| {
             let range = &self.world.frame().groups[group];
             range.first as usize..(range.first + range.count) as usize
@@ -247,7 +253,7 @@ fn wide_space<R: Real, const D: usize>(space: &Space<R, D>) -> Space<f64, D> {
 }
 
 /// What reads one number off a trial.
-trait Reader<R: Scalar, const D: usize> {
+pub(super) trait Reader<R: Scalar, const D: usize> {
     /// Takes in a look.
     fn look(&mut self, look: &Look<'_, R, D>);
     /// Whether it wants to know of every step.
@@ -292,11 +298,7 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
             Box::new(OfMetric { metric, group, scale: reading.scale, values: Values::new(reading.statistic) })
         }
         Quantity::Inside(reading) => {
-            for (key, corner) in [("low", &reading.low), ("high", &reading.high)] {
-                if corner.len() != D {
-                    return Err(format!("`{key}` has {} coordinates in {D} dimensions", corner.len()));
-                }
-            }
+            corners::<D>(&reading.low, &reading.high)?;
             let values = Values::new(reading.statistic);
             Box::new(OfInside { group: group(reading.group.as_deref())?, reading: reading.clone(), values })
         }
@@ -354,7 +356,27 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
         Quantity::Detection(reading) => Box::new(OfDetections { reading: reading.clone() }),
         Quantity::Food(reading) => Box::new(Meals::new(reading, world)?),
         Quantity::ObstacleDistance(reading) => Box::new(OfObstacles { scale: reading.scale }),
+        Quantity::Profile(reading) => Box::new(Profile::new(reading, world)?),
+        Quantity::Correlation(reading) => Box::new(CorrelationLength::new(reading)),
+        Quantity::Consensus(reading) => Box::new(Consensus::new(reading)),
+        Quantity::Bearing(reading) => Box::new(Bearing::<D>::new(reading, group(reading.group.as_deref())?)?),
+        Quantity::Reversals(reading) => Box::new(Reversals::new(reading, group(reading.group.as_deref())?, D)?),
+        Quantity::Emptied(reading) => {
+            corners::<D>(&reading.low, &reading.high)?;
+            Box::new(Emptied::new(reading, group(reading.group.as_deref())?))
+        }
     })
+}
+
+/// Whether both corners of a box have a coordinate for each axis.
+///
+/// # Errors
+/// One that has not.
+fn corners<const D: usize>(low: &[f64], high: &[f64]) -> Result<(), String> {
+    match [("low", low), ("high", high)].into_iter().find(|(_, corner)| corner.len() != D) {
+        Some((key, corner)) => Err(format!("`{key}` has {} coordinates in {D} dimensions", corner.len())),
+        None => Ok(()),
+    }
 }
 
 /// A mean over looks; those without a value do not count.
@@ -378,7 +400,7 @@ impl Mean {
 
 /// What is made of the values of the looks; those without a value do not count.
 #[derive(Clone, Copy, Debug)]
-struct Values {
+pub(super) struct Values {
     statistic: Statistic,
     count: f64,
     /// Sums of the first, the second and the fourth power.
@@ -389,7 +411,7 @@ struct Values {
 }
 
 impl Values {
-    fn new(statistic: Statistic) -> Self {
+    pub(super) fn new(statistic: Statistic) -> Self {
         Self {
             statistic,
             count: 0.0,
@@ -399,14 +421,14 @@ impl Values {
             last: f64::NAN,
         }
     }
-    fn add(&mut self, value: Option<f64>) {
+    pub(super) fn add(&mut self, value: Option<f64>) {
         let Some(value) = value else { return };
         self.count += 1.0;
         let square = value * value;
         self.sums.iter_mut().zip([value, square, square * square]).for_each(|(sum, power)| *sum += power);
         (self.least, self.greatest, self.last) = (self.least.min(value), self.greatest.max(value), value);
     }
-    fn value(&self) -> Option<f64> {
+    pub(super) fn value(&self) -> Option<f64> {
         let [first, second, fourth] = self.sums.map(|sum| sum / self.count);
         let value = match self.statistic {
             Statistic::Mean => first,

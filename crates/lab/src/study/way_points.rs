@@ -121,15 +121,19 @@ mod tests {
     use swarm::WorldPlan;
     use swarm::engine::{GroupPlan, Placement, Start};
     use swarm::parameters::Values;
+    use swarm::physics::{DifferentialDrive, Mobility};
 
-    /// Three at rest, headed right: the first has one to its right and one beyond it.
-    fn read(quantity: WayPointQuantity, exclusion: f64) -> Option<f64> {
+    /// Three that head right, or stand on two wheels: the first has one to its right and one beyond it.
+    fn read(quantity: WayPointQuantity, exclusion: f64, stands: bool) -> Option<f64> {
         let position = vec![Vector([0.0, 0.0]), Vector([3.0, 0.0]), Vector([3.0, 4.0])];
-        let velocity = Some(vec![Vector([0.1, 0.0]); 3]);
+        let velocity = Some(vec![Vector([if stands { 0.0 } else { 0.1 }, 0.0]); 3]);
         let placement = Placement::Given(Start { position, velocity, columns: BTreeMap::new() });
         let values = Values::from([("exclusion_distance".to_owned(), exclusion.into())]);
-        let plan =
-            WorldPlan::new(Space::<f64, 2>::open(), GroupPlan::new("members", "ha_extended", values, 3, placement));
+        let mut group = GroupPlan::new("members", "ha_extended", values, 3, placement);
+        if stands {
+            group.mobility = Mobility::DifferentialDrive(DifferentialDrive::default());
+        }
+        let plan = WorldPlan::new(Space::<f64, 2>::open(), group);
         let mut world = World::new(plan).ok()?;
         let reading = WayPointReading { quantity, scale: 1.0 };
         let mut way_points = WayPoints::new(&reading, world.frame().declared).ok()?;
@@ -141,16 +145,23 @@ mod tests {
     #[test]
     fn a_cycle_of_three() {
         // with the published exclusion all aim between two; the first two see their nearest 3 away, the third 4
-        assert_eq!(read(WayPointQuantity::Ha, 0.5), Some(100.0));
-        assert_eq!(read(WayPointQuantity::EffectiveHa, 0.5), Some(100.0));
-        let mean = read(WayPointQuantity::NearestInput, 0.5);
+        assert_eq!(read(WayPointQuantity::Ha, 0.5, false), Some(100.0));
+        assert_eq!(read(WayPointQuantity::EffectiveHa, 0.5, false), Some(100.0));
+        let mean = read(WayPointQuantity::NearestInput, 0.5, false);
         assert!(mean.is_some_and(|mean| (mean - 10.0 / 3.0).abs() < 1e-12), "{mean:?}");
         // one cycle each: nothing varies, and there is no change
-        assert_eq!(read(WayPointQuantity::Smoothness, 0.5), Some(0.0));
-        assert_eq!(read(WayPointQuantity::Jitter, 0.5), None);
+        assert_eq!(read(WayPointQuantity::Smoothness, 0.5, false), Some(0.0));
+        assert_eq!(read(WayPointQuantity::Jitter, 0.5, false), None);
         // nobody is beyond so large an exclusion: all go to the nearest
-        assert_eq!(read(WayPointQuantity::Ha, 100.0), Some(0.0));
-        assert_eq!(read(WayPointQuantity::EffectiveHa, 100.0), Some(0.0));
+        assert_eq!(read(WayPointQuantity::Ha, 100.0, false), Some(0.0));
+        assert_eq!(read(WayPointQuantity::EffectiveHa, 100.0, false), Some(0.0));
+    }
+
+    #[test]
+    fn robots_that_stand_know_where_ahead_is() {
+        assert_eq!(read(WayPointQuantity::EffectiveHa, 0.5, true), Some(100.0));
+        let mean = read(WayPointQuantity::NearestInput, 0.5, true);
+        assert!(mean.is_some_and(|mean| (mean - 10.0 / 3.0).abs() < 1e-12), "{mean:?}");
     }
 
     #[test]

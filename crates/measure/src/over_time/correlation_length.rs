@@ -10,6 +10,17 @@ takes! {
     pub struct CorrelationLength { bin_width: BIN_WIDTH, bins: BINS }
 }
 
+/// The distance at which the velocity correlation of a moment first falls to zero. `None` where it never does.
+pub fn first_zero<const D: usize>(sample: &Sample<D>, bin_width: f64, bins: f64) -> Option<f64> {
+    let mut sums = Correlation::new(bins);
+    sums.add(sample, bin_width);
+    let middle = |bin: usize| ((bin as f64 + 0.5) * bin_width, sums.of(bin));
+    let known: Vec<(f64, f64)> = (0..sums.sums.len()).map(middle).filter(|(_, c)| c.is_finite()).collect();
+    let falls = known.windows(2).find(|pair| pair[0].1 > 0.0 && pair[1].1 <= 0.0)?;
+    let [(near, high), (far, low)] = [falls[0], falls[1]];
+    Some(near + (far - near) * high / (high - low))
+}
+
 impl TrackMetric for CorrelationLength {
     const CARD: TrackCard = TrackCard {
         id: "correlation_length",
@@ -34,18 +45,9 @@ impl TrackMetric for CorrelationLength {
         let mut sample = Sample::empty();
         for (frame, &number) in tracks.frames().iter().enumerate() {
             tracks.sample_into(frame, &mut sample);
-            let mut sums = Correlation::new(self.bins);
-            sums.add(&sample, self.bin_width);
-            let known: Vec<(f64, f64)> = (0..sums.sums.len())
-                .map(|bin| ((bin as f64 + 0.5) * self.bin_width, sums.of(bin)))
-                .filter(|(_, c)| c.is_finite())
-                .collect();
-            let falls = known.windows(2).find(|pair| pair[0].1 > 0.0 && pair[1].1 <= 0.0);
-            let length = falls.map_or(f64::NAN, |pair| {
-                let [(near, high), (far, low)] = [pair[0], pair[1]];
-                near + (far - near) * high / (high - low)
-            });
-            found.push([number as f64, tracks.times()[frame], length, sums.members]);
+            let length = first_zero(&sample, self.bin_width, self.bins).unwrap_or(f64::NAN);
+            let members = sample.velocities().count() as f64;
+            found.push([number as f64, tracks.times()[frame], length, members]);
         }
         Ok(found)
     }

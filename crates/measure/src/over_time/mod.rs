@@ -48,6 +48,7 @@ over_time! {
     voronoi_density::VoronoiDensity;
     speed_in_area::SpeedInArea;
     mean_median_distance::MeanMedianDistance;
+    consensus_robustness::ConsensusRobustness;
 }
 
 /// The metric over time of an id, with its parameters at the defaults.

@@ -556,7 +556,14 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             rows: view.rows,
             space: view.space,
             group: (self.first, self.count),
+            facing: self.facing(view, row),
         }
+    }
+    /// The angle in which an agent's body faces, where it keeps one.
+    #[inline(always)]
+    fn facing(&self, view: &View<'_, R, D>, row: usize) -> Option<R> {
+        let keeps = matches!(self.mobility, Mobility::DifferentialDrive(_));
+        self.body_columns.first().filter(|_| keeps).map(|&column| view.now.state[column][row])
     }
     /// Fills the scratch with the detected members of one agent. Returns whether velocities and columns stand in
     /// `scratch.sensed` rather than in the state.
@@ -864,10 +871,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             let id = view.others.id[other];
             scratch.robot.add_body(scratch.at(k), view.body_radius(id), id);
         }
-        let facing = match (&self.mobility, self.body_columns.first()) {
-            (Mobility::DifferentialDrive(_), Some(&column)) => view.now.state[column][row],
-            _ => view.now.velocity(row).angle(),
-        };
+        let facing = self.facing(view, row).unwrap_or_else(|| view.now.velocity(row).angle());
         let draws = DrawStream::new(view.seed, Purpose::Sensing, view.step, view.now.id[row]);
         robot.detect(view.obstacles, view.space, place, facing, &draws, view.time, &mut scratch.robot, memory);
         scratch.clear();

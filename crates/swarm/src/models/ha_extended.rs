@@ -126,11 +126,11 @@ impl<R: Scalar> Model<R, 2> for HaExtended<R> {
             }
         };
         me.own[0] = R::count(mode);
-        let heading = me.heading();
+        let ahead = me.ahead();
         let nearest = first.map_or(Vector::ZERO, |first| seen.offset(first));
         for (k, vector) in [(1, step), (3, nearest)] {
-            me.own[k] = vector.dot(heading);
-            me.own[k + 1] = vector.dot(heading.left());
+            me.own[k] = vector.dot(ahead);
+            me.own[k + 1] = vector.dot(ahead.left());
         }
         me.unit("length");
         if mode != HA {
