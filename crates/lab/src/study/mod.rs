@@ -4,6 +4,7 @@
 //! trial. [`plan`] makes cells and conditions of it, [`execute`] runs what is missing and keeps it in an append-only log,
 //! [`tables`] writes the tables, [`claims`] judges statements, [`report`] draws the page.
 
+mod arrival;
 pub mod claims;
 pub mod execute;
 pub mod expression;
@@ -12,7 +13,9 @@ mod ground;
 mod meals;
 pub mod plan;
 pub mod report;
+mod standing;
 pub mod tables;
+mod transfer;
 pub mod trial;
 mod way_points;
 

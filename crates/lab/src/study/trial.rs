@@ -1,5 +1,6 @@
 //! One trial: a condition's world with the seed of the trial, stepped to its end and looked at on the way.
 
+use super::arrival::Arrival;
 use super::form::{
     ClusterQuantity, ClusterReading, ContactReading, CoverageReading, DetectionReading, GroundReading, InsideReading,
     LaneReading, Partner, PathQuantity, Quantity, ShareReading, Statistic, Whose,
@@ -7,6 +8,8 @@ use super::form::{
 use super::ground;
 use super::meals::Meals;
 use super::plan::{Condition, Plan, entry_place};
+use super::standing::Standing;
+use super::transfer::OfTransfer;
 use super::way_points::{WayPoints, detections};
 use crate::file::{Desk, Node};
 use crate::scenario::build;
@@ -174,17 +177,17 @@ pub fn rate(plan: &Plan, condition: &Condition, seconds: f64) -> Result<f64, Str
 }
 
 /// What can be seen at one moment: the living, in the order of their ids.
-struct Look<'w, R: Scalar, const D: usize> {
-    world: &'w World<R, D>,
-    space: Space<f64, D>,
-    ids: Vec<usize>,
-    rows: Vec<usize>,
-    positions: Vec<Vector<f64, D>>,
-    velocities: Vec<Vector<f64, D>>,
+pub(super) struct Look<'w, R: Scalar, const D: usize> {
+    pub(super) world: &'w World<R, D>,
+    pub(super) space: Space<f64, D>,
+    pub(super) ids: Vec<usize>,
+    pub(super) rows: Vec<usize>,
+    pub(super) positions: Vec<Vector<f64, D>>,
+    pub(super) velocities: Vec<Vector<f64, D>>,
     /// Time since the look before.
     interval: f64,
     /// Whether it lies in the window in which most is read.
-    window: bool,
+    pub(super) window: bool,
     sample: Sample<D>,
     clusters: std::cell::RefCell<Vec<(f64, std::rc::Rc<Clusters>)>>,
 }
@@ -223,7 +226,7 @@ impl<'w, R: Scalar, const D: usize> Look<'w, R, D> {
         clusters
     }
     /// The living of a group, or all of them.
-    fn members(&self, group: Option<usize>) -> Vec<usize> {
+    pub(super) fn members(&self, group: Option<usize>) -> Vec<usize> {
         let ids = group.map_or(0..usize::MAX, |group| {
             let range = &self.world.frame().groups[group];
             range.first as usize..(range.first + range.count) as usize
@@ -236,7 +239,7 @@ impl<'w, R: Scalar, const D: usize> Look<'w, R, D> {
     }
 }
 
-fn wide_space<R: Real, const D: usize>(space: &Space<R, D>) -> Space<f64, D> {
+pub(super) fn wide_space<R: Real, const D: usize>(space: &Space<R, D>) -> Space<f64, D> {
     Space {
         edges: space.edges.map(|edge| match edge {
             Edge::Open => Edge::Open,
@@ -247,7 +250,7 @@ fn wide_space<R: Real, const D: usize>(space: &Space<R, D>) -> Space<f64, D> {
 }
 
 /// What reads one number off a trial.
-trait Reader<R: Scalar, const D: usize> {
+pub(super) trait Reader<R: Scalar, const D: usize> {
     /// Takes in a look.
     fn look(&mut self, look: &Look<'_, R, D>);
     /// Whether it wants to know of every step.
@@ -353,6 +356,19 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
         Quantity::WayPoints(reading) => Box::new(WayPoints::new(reading, declared)?),
         Quantity::Detection(reading) => Box::new(OfDetections { reading: reading.clone() }),
         Quantity::Food(reading) => Box::new(Meals::new(reading, world)?),
+        Quantity::Arrival(reading) => {
+            if reading.at.len() != D {
+                return Err(format!("`at` has {} coordinates in {D} dimensions", reading.at.len()));
+            }
+            Box::new(Arrival::new(reading, group(reading.group.as_deref())?))
+        }
+        Quantity::Transfer(reading) => {
+            Box::new(OfTransfer::new(reading, column(&reading.column)?, group(reading.group.as_deref())?))
+        }
+        Quantity::Standing(reading) => {
+            let with = reading.with.as_deref().map(column).transpose()?;
+            Box::new(Standing::new(reading, with, group(reading.group.as_deref())?))
+        }
         Quantity::ObstacleDistance(reading) => Box::new(OfObstacles { scale: reading.scale }),
     })
 }
