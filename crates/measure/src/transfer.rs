@@ -102,7 +102,7 @@ mod tests {
         for look in 0..=8 {
             let heading = |k: usize| if look > 2 * k { Vector([0.0, 2.0]) } else { Vector([2.0, 0.0]) };
             let velocities: Vec<_> = (0..5).map(heading).collect();
-            turn.look(0.5 * look as f64, &[3, 4, 5, 6, 7], &places, &velocities, |k| k == 0 && look >= 0);
+            turn.look(0.5 * look as f64, &[3, 4, 5, 6, 7], &places, &velocities, |k| k == 0);
         }
         assert_eq!(turn.share(), Some(0.75), "the last has not turned yet");
         let delays = turn.delays(&space);
