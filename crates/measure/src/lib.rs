@@ -43,9 +43,11 @@ pub mod near;
 pub mod over_time;
 mod per_frame;
 mod sample;
+pub mod standing;
 pub mod statistics;
 mod track_metric;
 mod tracks;
+pub mod transfer;
 pub mod way_points;
 
 pub use ground::Ground;

@@ -332,6 +332,8 @@ pub struct Percepts<'a, R, const D: usize> {
     pub columns: &'a [usize],
     /// Whether percept `k` is row `k` of `others`. Only for laws that ask for marks.
     pub whole: bool,
+    /// Whether members may be unequally fast, so that headings are not velocities over one speed.
+    pub uneven: bool,
     /// How laws that ask for marks may have to do with less; they use [`Self::at`] and [`Self::several`].
     pub rough: Option<Rough<'a, R, D>>,
 }

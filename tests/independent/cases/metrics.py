@@ -106,6 +106,19 @@ def of_moment(name, positions, velocities, period):
     for far in (0.5, 2.0):
         yield of("stragglers", (nearest[:, 0] > far).mean(), distance=far)
         yield of("overlapping_pairs", float((pairs < 2 * far).sum()), body_radius=far)
+    for reach, body in ((3.0, 0.2), (6.0, 0.5)):
+        shares = []
+        for own in range(members):
+            near = [j for j in range(members) if j != own and distances[own, j] <= reach + 2 * body]
+            ways = [between[own, j] for j in near]
+            def hidden(to):
+                at = [numpy.clip(other @ to / (to @ to), 0, 1) for other in ways]
+                aside = [numpy.linalg.norm(other - share * to) for other, share in zip(ways, at)]
+                return any(a < body and other @ other < to @ to for a, other in zip(aside, ways))
+            if near:
+                shares.append(numpy.mean([not hidden(to) for to in ways]))
+        if shares:
+            yield of("visible_share", numpy.mean(shares), view_radius=reach, body_radius=body)
 
     for distance in (0.2, 1.5, 3.0, 5.0):
         labels = cluster.AgglomerativeClustering(

@@ -3,8 +3,10 @@
 use crate::file::form::{Variant, choice, place_of};
 use crate::file::{Desk, Field, Form, Node, Rule, Shape, Span, Tree};
 use crate::tagged;
+use measure::statistics::distribution::normal;
 use space::random::{Purpose, uniform};
 use space::spelling::nearest;
+use swarm::adaptation::Varied;
 use swarm::models;
 use swarm::parameters::{Descriptor, Kind, ParameterError, Range, Value, Values};
 use swarm::terms;
@@ -12,8 +14,14 @@ use swarm::terms;
 tagged! {
     /// A distribution over the members of a group.
     pub enum Distribution {
+        /// The same for all.
+        constant => Constant(f64);
         /// Normal: mean and standard deviation. Values outside the range of the parameter are set to its nearest end.
         normal => Normal(Vec<f64>);
+        /// Normal, cut off at two ends: mean, standard deviation, least, greatest.
+        truncated => Truncated(Vec<f64>);
+        /// One value for each member.
+        list => List(Vec<f64>);
         /// Uniform between two ends.
         uniform => Uniform(Vec<f64>);
     }
@@ -23,6 +31,11 @@ impl Distribution {
     /// Notes what cannot be.
     fn checked(self, span: &Span, desk: &mut Desk) -> Option<Self> {
         let (what, fine) = match &self {
+            Self::Constant(_) | Self::List(_) => ("", true),
+            Self::Truncated(v) => (
+                "truncated takes [mean, standard deviation, least, greatest], the second 0 or more, the third not above the last",
+                v.len() == 4 && v[1] >= 0.0 && v[2] <= v[3],
+            ),
             Self::Normal(v) => {
                 ("normal takes [mean, standard deviation], the second 0 or more", v.len() == 2 && v[1] >= 0.0)
             }
@@ -35,13 +48,24 @@ impl Distribution {
         }
         fine.then_some(self)
     }
-    /// The value of a member. The draws depend on the seed, the name of the quantity and the member's id alone.
-    pub fn of(&self, seed: u64, name: &str, id: u32) -> f64 {
+    /// Whether there is one value for each of so many members.
+    fn fits(&self, count: usize) -> Result<(), usize> {
+        match self {
+            Self::List(values) if values.len() != count => Err(values.len()),
+            _ => Ok(()),
+        }
+    }
+    /// The value of a member of so many of the group, by its place in it. The draws depend on the seed, the name of the quantity and the member's id alone.
+    pub fn of(&self, seed: u64, name: &str, first: u32, member: u32) -> f64 {
+        let id = first + member;
         // FNV-1a: a stream of its own for every quantity
         let hash = name.bytes().fold(0x811c_9dc5u32, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
         let a = (1 << 43) | u64::from(hash);
         let draw = |slot: u32| uniform(seed, Purpose::Init, a, id.wrapping_mul(8).wrapping_add(slot));
         match self {
+            Self::Constant(value) => *value,
+            Self::List(values) => values.get(member as usize).copied().unwrap_or(f64::NAN),
+            Self::Truncated(v) => truncated(draw(0), v[0], v[1], v[2], v[3]),
             Self::Normal(v) => v[0] + v[1] * space::random::normal(draw(0), draw(1)),
             Self::Uniform(v) => v[0] + (v[1] - v[0]) * draw(0),
         }
@@ -87,7 +111,8 @@ impl PerMember {
             Self::Each(values) if values.len() == count => Ok(values.clone()),
             Self::Each(values) => Err(values.len()),
             Self::Drawn(distribution) => {
-                Ok((0..count as u32).map(|k| distribution.of(seed, name, first + k)).collect())
+                distribution.fits(count)?;
+                Ok((0..count as u32).map(|k| distribution.of(seed, name, first, k)).collect())
             }
         }
     }
@@ -116,6 +141,29 @@ impl Model {
     pub fn descriptors(&self) -> Vec<Descriptor> {
         models::find(&self.id).map_or_else(Vec::new, |entry| (entry.parameters)())
     }
+    /// Parameters of which each of `count` members from the id `first` on has its own value, angles in radians: those that are
+    /// drawn and of which the law itself takes only one.
+    pub fn varied(&self, count: usize, seed: u64, first: u32) -> Vec<Varied> {
+        let descriptors = self.descriptors();
+        let mut varied = Vec::new();
+        for (name, given) in &self.parameters {
+            let Some(descriptor) = descriptors.iter().find(|d| d.name == name) else { continue };
+            if let (Given::Drawn(distribution), Kind::Number | Kind::Whole) = (given, &descriptor.takes) {
+                let values = drawn(descriptor, distribution, count, seed, first);
+                let radian = in_radians(descriptor);
+                let values = values.into_iter().map(|value| if radian { radians(value) } else { value }).collect();
+                varied.push(Varied { parameter: name.clone(), values });
+            }
+        }
+        varied
+    }
+    /// A list with another number of values than there are members: the parameter, and how many it has.
+    pub fn list_that_does_not_fit(&self, count: usize) -> Option<(&str, usize)> {
+        self.parameters.iter().find_map(|(name, given)| match given {
+            Given::Drawn(distribution) => distribution.fits(count).err().map(|found| (name.as_str(), found)),
+            Given::Value(_) => None,
+        })
+    }
     /// The values for a group of `count` members from the id `first` on, angles in radians.
     pub fn values(&self, count: usize, seed: u64, first: u32) -> swarm::parameters::Values {
         let descriptors = self.descriptors();
@@ -124,15 +172,45 @@ impl Model {
             let Some(descriptor) = descriptors.iter().find(|d| d.name == name) else { continue };
             let value = match given {
                 Given::Value(value) => value.clone(),
-                Given::Drawn(distribution) => {
-                    let of = |k| clamped(descriptor.range, distribution.of(seed, name, first + k));
-                    Value::List((0..count as u32).map(|k| Value::Number(of(k))).collect())
-                }
+                // those of a law that takes one for each member; the others make laws of their own
+                Given::Drawn(_) if !matches!(descriptor.takes, Kind::PerAgent(_)) => continue,
+                Given::Drawn(distribution) => Value::List(drawn(descriptor, distribution, count, seed, first)),
             };
             values.insert(name.clone(), if in_radians(descriptor) { radians(value) } else { value });
         }
         values
     }
+}
+
+/// The values of a parameter for so many members, in the units of the file.
+fn drawn(descriptor: &Descriptor, distribution: &Distribution, count: usize, seed: u64, first: u32) -> Vec<Value> {
+    let whole = matches!(&descriptor.takes, Kind::Whole);
+    let of = |k| {
+        let value = clamped(descriptor.range, distribution.of(seed, descriptor.name, first, k));
+        Value::Number(if whole { value.round().max(0.0) } else { value })
+    };
+    (0..count as u32).map(of).collect()
+}
+
+/// A normal number between two ends, from a uniform one, by inversion.
+fn truncated(draw: f64, mean: f64, deviation: f64, low: f64, high: f64) -> f64 {
+    if deviation <= 0.0 {
+        return mean.clamp(low, high);
+    }
+    let normal = |x: f64| normal((x - mean) / deviation);
+    let (from, to) = (normal(low), normal(high));
+    let wanted = from + (to - from) * draw;
+    // the distribution function grows: halving finds the place to the last bit
+    let (mut below, mut above) = (low, high);
+    for _ in 0..100 {
+        let middle = below + (above - below) / 2.0;
+        if normal(middle) < wanted {
+            below = middle;
+        } else {
+            above = middle;
+        }
+    }
+    below + (above - below) / 2.0
 }
 
 fn clamped(range: Range, value: f64) -> f64 {
@@ -254,7 +332,7 @@ impl Form for Model {
     fn shape(_: &Rule<'_>) -> Shape {
         fn variants() -> Vec<Variant> {
             let variant = |entry: &models::Entry| {
-                let fields = (entry.parameters)().iter().map(field).collect();
+                let fields = (entry.parameters)().iter().map(field_of_model).collect();
                 Variant { name: entry.card.id, about: entry.card.about, shape: Shape::Fields(fields) }
             };
             models::LIST.iter().map(variant).collect()
@@ -298,7 +376,12 @@ fn parameter(
     if descriptor.takes == Kind::Terms {
         return Some((descriptor.name.to_owned(), Given::Value(terms(&entry.node, &rule, desk)?)));
     }
-    let per_agent = matches!(&descriptor.takes, Kind::PerAgent(one) if matches!(**one, Kind::Number));
+    // terms of a composition are the same for all
+    let per_agent = match &descriptor.takes {
+        Kind::PerAgent(one) => matches!(**one, Kind::Number),
+        Kind::Number | Kind::Whole => models::find(model).is_some(),
+        _ => false,
+    };
     if let Tree::Table(_) = entry.node.tree {
         if !per_agent {
             let what = format!("`{key}` takes {}, found a table", descriptor.takes);
@@ -360,6 +443,15 @@ fn terms(node: &Node, rule: &Rule<'_>, desk: &mut Desk) -> Option<Value> {
     // every term is read, so that every problem is found
     let read: Vec<Option<Value>> = list.iter().map(|node| one(node, desk)).collect();
     read.into_iter().collect::<Option<_>>().map(Value::List)
+}
+
+/// A parameter of a model as a key of a file: numbers may be drawn for each member.
+fn field_of_model(descriptor: &Descriptor) -> Field {
+    let mut field = field(descriptor);
+    if matches!(descriptor.takes, Kind::Number | Kind::Whole) {
+        field.shape = Shape::Either(vec![field.shape, Distribution::shape(&Rule::FREE)]);
+    }
+    field
 }
 
 /// A parameter as a key of a file.

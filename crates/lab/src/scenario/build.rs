@@ -372,18 +372,20 @@ fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
             Wrong::new(path, error.to_string(), "not possible together")
         }
         WorldError::Group { group, problem } => {
-            let place = if problem.starts_with("conduct") {
-                ".conduct"
-            } else if problem.contains("scanner") {
-                ".sensing"
+            let own = ["conduct", "taxis", "pace", "adapt", "decides"].into_iter().find(|key| problem.starts_with(key));
+            let place = if let Some(key) = own {
+                key
+            } else if problem.contains("scanner") || problem.starts_with("sensing") {
+                "sensing"
             } else if problem.starts_with("set `") || problem.contains("named set") {
-                ".select"
+                "select"
             } else if problem.contains("column") {
-                ".start.state"
+                "start.state"
             } else {
                 ""
             };
-            Wrong::new(format!("group.{group}{place}"), problem.clone(), "not possible")
+            let path = format!("group.{group}.{place}");
+            Wrong::new(path.trim_end_matches('.'), problem.clone(), "not possible")
         }
         WorldError::Dimension { .. } => Wrong::new("space.dimensions", error.to_string(), "not for this model"),
         WorldError::Model { .. } => Wrong::new("group", error.to_string(), ""),
@@ -392,6 +394,8 @@ fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
                 "food.predation"
             } else if problem.contains("resources") {
                 "food"
+            } else if problem.starts_with("stimulus") {
+                "stimulus"
             } else if problem.contains("obstacle") {
                 "obstacle"
             } else {
@@ -487,6 +491,13 @@ where
         Some(Ok(resources)) => Some(resources),
         None => None,
     };
+    let mut stimuli = Vec::new();
+    for (name, stimulus) in &scenario.stimulus.0 {
+        match stimulus.resolved(name) {
+            Ok(stimulus) => stimuli.push(stimulus),
+            Err(wrong) => wrongs.push(wrong.below(&format!("stimulus.{name}"))),
+        }
+    }
     let mut groups = Vec::new();
     let mut first = 0u32;
     for (index, (name, group)) in scenario.group.0.iter().enumerate() {
@@ -504,6 +515,7 @@ where
         space,
         groups,
         obstacles,
+        stimuli,
         resources,
         driver: driver_of(&scenario.time.driver),
         index: IndexChoice::Automatic,
@@ -548,6 +560,24 @@ where
             return Err(Wrong::new("model", what, "needs another number of dimensions").help("change space.dimensions"));
         }
     };
+    if let Some((name, found)) = group.model.list_that_does_not_fit(group.count) {
+        let what = format!("`{name}` has {found} values for {} members", group.count);
+        return Err(Wrong::new(format!("model.{id}.{name}"), what, "one for each"));
+    }
+    let varied = group.model.varied(group.count, seed, first);
+    let mut speeds = prepared.initial_speeds().to_vec();
+    for (member, speed) in speeds.iter_mut().enumerate().filter(|_| !varied.is_empty()) {
+        let mut own = values.clone();
+        own.extend(varied.iter().map(|varied| (varied.parameter.clone(), varied.values[member].clone())));
+        match Models::prepare(id, &own, group.count) {
+            Some(Ok(prepared)) => *speed = prepared.initial_speeds()[member],
+            Some(Err(error)) => {
+                let what = format!("member {member} of seed {seed}: {error}");
+                return Err(Wrong::new(format!("model.{id}"), what, "not possible together"));
+            }
+            None => {}
+        }
+    }
     let physics = group.physics.as_ref();
     let radius = physics.and_then(|p| p.radius).map(R::of);
     let body_radius = radius.unwrap_or(prepared.body_radius());
@@ -561,7 +591,7 @@ where
         first,
         count: group.count,
         body_radius,
-        initial_speeds: prepared.initial_speeds(),
+        initial_speeds: &speeds,
     };
     let default = Start::default();
     let start =
@@ -578,6 +608,17 @@ where
         plan.sensing = sensing.resolved();
     }
     plan.conduct = group.conduct.as_ref().map(super::Conduct::resolved);
+    plan.varied = varied;
+    plan.taxis = group.taxis.as_ref().map(|taxis| taxis.resolved(D));
+    plan.pace = group.pace.as_ref().map(super::Pace::resolved);
+    if let Some(adapt) = &group.adapt {
+        plan.adapt = Some(adapt.resolved(id).map_err(|wrong| wrong.below("adapt"))?);
+    }
+    if let Some(decides) = &group.decides {
+        let step = prepared.time_step().to_f64();
+        let intervals = decides.resolved(step, group.count, seed, first);
+        plan.intervals = intervals.map_err(|wrong| wrong.below("decides"))?;
+    }
     if let Some(physics) = physics {
         plan.mobility = physics.mobility.resolved();
         plan.contact = physics.contact.map(Into::into);

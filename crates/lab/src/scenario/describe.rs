@@ -191,6 +191,7 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
             );
         }
     }
+    text += &beside(group, scenario);
     if let Some(physics) = &group.physics {
         text += match &physics.mobility {
             BodyMobility::Ideal(_) => "",
@@ -213,6 +214,62 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
                 number(100.0 * noise.execution_speed)
             );
         }
+    }
+    text
+}
+
+/// What the group did beside its law.
+fn beside(group: &Group, scenario: &Scenario) -> String {
+    let (length, time) = (&scenario.units.length, &scenario.units.time);
+    let mut text = String::new();
+    if let Some(taxis) = &group.taxis {
+        let share = number(100.0 * taxis.informed);
+        let weight = match taxis.weight {
+            Some(weight) => format!("with the weight {} beside the direction of the law", number(weight)),
+            None => "in place of following the law".to_owned(),
+        };
+        let over = taxis.over.as_ref().map_or_else(String::new, |states| format!(", in the states {}", listed(states)));
+        text += &format!(" Of its members {share} % went up the stimulus `{}`, {weight}{over}.", taxis.up);
+    }
+    if let Some(pace) = &group.pace {
+        text += &format!(" Speeds varied from {} to {} {length}/{time}", number(pace.least), number(pace.greatest));
+        let limits = [("gains", pace.acceleration), ("losses", pace.deceleration)];
+        for (what, limit) in limits {
+            if let Some(limit) = limit {
+                text += &format!(", with {what} of up to {} per {time}", number(limit));
+            }
+        }
+        let mut by: Vec<String> =
+            pace.factors.0.iter().map(|(state, factor)| format!("{} times in `{state}`", number(*factor))).collect();
+        if let Some(matched) = &pace.neighbours {
+            let (share, within) = (number(100.0 * matched.weight), number(matched.within));
+            by.push(format!("{share} % the mean speed of those within {within} {length}"));
+        }
+        if let Some(excited) = &pace.excited {
+            by.push(format!("{} times the stimulus `{}` more", number(excited.gain), excited.by));
+        }
+        if let Some(drive) = &pace.drive {
+            let (deviation, memory) = (number(100.0 * drive.deviation), number(drive.time));
+            by.push(format!("an internal drive of {deviation} % that lasts {memory} {time}"));
+        }
+        text += &if by.is_empty() { ".".to_owned() } else { format!("; the target was the law's, {}.", listed(&by)) };
+    }
+    if let Some(adapt) = &group.adapt {
+        let other: Vec<String> =
+            adapt.to.0.iter().map(|(name, value)| format!("{name} = {}", value.0.tree.json())).collect();
+        text += &format!(
+            " Each changed to {} when {}, and for {} {time} after that.",
+            listed(&other),
+            super::beside::of_situation(adapt).join(" or "),
+            number(adapt.hold)
+        );
+    }
+    if let Some(decides) = &group.decides {
+        let every = match &decides.every {
+            super::PerMember::All(every) => number(*every),
+            other => other.write().json().to_string(),
+        };
+        text += &format!(" Members decided every {every} {time} and held their heading in between.");
     }
     text
 }
@@ -247,6 +304,16 @@ fn sensing(group: &Group, scenario: &Scenario) -> String {
                 Occlusion::None => {}
                 Occlusion::Obstacles => limits.push("not behind obstacles".to_owned()),
                 Occlusion::All => limits.push("not behind obstacles or bodies".to_owned()),
+            }
+            if let Some(free) = ideal.free.filter(|_| ideal.occlusion != Occlusion::None) {
+                limits.push(format!("if at least {} % of their disc was free", number(100.0 * free)));
+            }
+            if let Some(pool) = &ideal.one_of {
+                limits.push(format!(
+                    "one at a time, drawn from the {} nearest by {}",
+                    pool.nearest,
+                    pool.weights.write().json()
+                ));
             }
             let noise = &ideal.noise;
             if noise.distance > 0.0 || noise.direction > 0.0 || noise.heading > 0.0 || noise.miss > 0.0 {

@@ -4,6 +4,7 @@
 //! scenario declares. What stands here is what was written, checked value by value; [`build`] makes a world of it.
 
 pub mod agents;
+pub mod beside;
 pub mod body;
 pub mod build;
 pub mod conduct;
@@ -17,6 +18,7 @@ use crate::file::{Named, PerAxis};
 use crate::{form, tagged, words};
 
 pub use agents::{Model, PerMember};
+pub use beside::{Adapt, Decides, Pace, Stimulus, Taxis};
 pub use body::Physics;
 pub use conduct::Conduct;
 pub use perception::Choice;
@@ -190,6 +192,14 @@ form! {
         select: Named<Choice> = [Named::default()], "", Any;
         /// What it does beside its law; left out, nothing.
         conduct: Option<Conduct> = none, "", Any;
+        /// How it goes up a stimulus; left out, it does not.
+        taxis: Option<Taxis> = none, "", Any;
+        /// How its speed varies; left out, as the law says.
+        pace: Option<Pace> = none, "", Any;
+        /// Other parameters in a situation; left out, always the same.
+        adapt: Option<Adapt> = none, "", Any;
+        /// How often members decide; left out, in every step.
+        decides: Option<Decides> = none, "", Any;
         /// Bodies.
         physics: Option<Physics> = none, "", Any;
     }
@@ -273,6 +283,8 @@ form! {
         scatter: Named<Scatter> = [Named::default()], "", Any;
         /// Food.
         food: Option<Food> = none, "", Any;
+        /// Fields that bodies may sense, by a name of yours.
+        stimulus: Named<Stimulus> = [Named::default()], "", Any;
         /// The groups, by a name of yours.
         group: Named<Group> = need, "", Any;
         /// What is kept of the motion.

@@ -1,12 +1,13 @@
 //! Sensing and detection, as written.
 
+use crate::file::Nothing;
 use crate::{form, tagged, words};
 use swarm::detection::readings::{Clustering, InjectedErrors, Matching, ReadingDetection};
 use swarm::engine;
 use swarm::parameters::Scalar;
 use swarm::sensing::robot::Robot;
 use swarm::sensing::scanner::{ScanNoise, Scanner};
-use swarm::sensing::{self, SensingNoise};
+use swarm::sensing::{self, PoolWeight, SensingNoise};
 
 words! {
     /// What hides a member that stands behind it.
@@ -40,6 +41,58 @@ impl Default for Errors {
     }
 }
 
+tagged! {
+    /// How one of a pool is drawn.
+    pub enum Weights {
+        /// All are alike.
+        uniform => Uniform(Nothing);
+        /// By the inverse of the distance.
+        inverse => Inverse(Nothing);
+        /// By the inverse square of the distance.
+        inverse_square => InverseSquare(Nothing);
+        /// By exp(-distance / length): the length.
+        exponential in "length", swarm::parameters::Range::Positive => Exponential(f64);
+        /// By the angle from the heading.
+        angle => Angle(Preference);
+    }
+}
+
+form! {
+    /// A preference of some angle from the heading.
+    pub struct Preference {
+        /// The angle, from 0 ahead to 180 behind.
+        preferred: f64 = need, "deg", Within(0.0, 180.0);
+        /// Standard deviation about it.
+        width: f64 = need, "deg", Positive;
+    }
+}
+
+form! {
+    /// A pool of which one member is drawn in each decision; it alone is perceived.
+    pub struct Pool {
+        /// So many nearest of those that are perceived.
+        nearest: usize = need, "1", Positive;
+        /// How it is drawn.
+        weights: Weights = [Weights::Uniform(Nothing)], "", Any;
+    }
+}
+
+impl Pool {
+    fn resolved<R: Scalar>(&self) -> sensing::Pool<R> {
+        let weight = match &self.weights {
+            Weights::Uniform(_) => PoolWeight::Uniform,
+            Weights::Inverse(_) => PoolWeight::Inverse,
+            Weights::InverseSquare(_) => PoolWeight::InverseSquare,
+            Weights::Exponential(length) => PoolWeight::Exponential(R::of(*length)),
+            Weights::Angle(preference) => PoolWeight::Angle {
+                preferred: R::of(preference.preferred.to_radians()),
+                width: R::of(preference.width.to_radians()),
+            },
+        };
+        sensing::Pool { nearest: self.nearest, weight }
+    }
+}
+
 form! {
     /// The state itself, within limits.
     pub struct Ideal {
@@ -49,6 +102,10 @@ form! {
         field_of_view: Option<f64> = none, "deg", Within(0.0, 360.0);
         /// What hides a member.
         occlusion: Occlusion = [Occlusion::None], "", Any;
+        /// Share of a member's disc that must be free for it to be perceived, where something hides; left out, its centre must be.
+        free: Option<f64> = none, "1", Within(0.0, 1.0);
+        /// One member alone is perceived: one drawn from a pool of the nearest.
+        one_of: Option<Pool> = none, "", Any;
         /// Errors.
         noise: Errors = [Errors::default()], "", Any;
     }
@@ -209,6 +266,8 @@ impl Sensing {
                     Occlusion::Obstacles => sensing::Occlusion::Obstacles,
                     Occlusion::All => sensing::Occlusion::All,
                 },
+                free: ideal.free.map(R::of),
+                one_of: ideal.one_of.as_ref().map(Pool::resolved),
                 noise: SensingNoise {
                     distance: R::of(ideal.noise.distance),
                     direction: R::of(ideal.noise.direction.to_radians()),

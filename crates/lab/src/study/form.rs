@@ -406,6 +406,94 @@ form! {
     }
 }
 
+words! {
+    /// What is read off those who come to a place.
+    pub enum ArrivalQuantity {
+        /// Share of the members that have come there at any look.
+        Share = "share",
+        /// Share of the members that are there at the last look.
+        There = "there",
+        /// Time at which so many had come; none where so many never do.
+        Time = "time",
+    }
+}
+
+form! {
+    /// Who comes to a place: members nearer to it than a distance.
+    pub struct ArrivalReading {
+        /// What.
+        quantity: ArrivalQuantity = need, "", Any;
+        /// The place.
+        at: Vec<f64> = need, "length", Any;
+        /// Who is nearer than this is there.
+        within: f64 = need, "length", Positive;
+        /// The share whose arrival takes the time.
+        part: f64 = [0.5], "1", Within(0.0, 1.0);
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
+    }
+}
+
+words! {
+    /// What is read off a turn that passes through a group.
+    pub enum TransferQuantity {
+        /// Share of the others that have turned.
+        Share = "share",
+        /// Mean delay of those.
+        Delay = "delay",
+        /// Delay of who stood last along the mean heading.
+        Rearmost = "rearmost",
+        /// Speed at which the turn spreads: squared distances from the first, summed, over distances times delays.
+        Speed = "speed",
+        /// Rank correlation of delay and distance from the first.
+        Correlation = "correlation",
+    }
+}
+
+form! {
+    /// A turn that passes through a group, from the first look on at which a count of the law is not 0 for somebody: that one is
+    /// the first. Others have turned when their heading differs by more than an angle from what it was then.
+    pub struct TransferReading {
+        /// What.
+        quantity: TransferQuantity = need, "", Any;
+        /// The count, as `o_avoid`: obstacles that are avoided.
+        column: String = ["o_avoid".to_owned()], "", Any;
+        /// The angle.
+        angle: f64 = [30.0], "deg", Within(0.0, 180.0);
+        /// What it is multiplied by.
+        scale: f64 = [1.0], "", Any;
+        /// The group; left out, everyone.
+        group: Option<String> = none, "", Any;
+    }
+}
+
+words! {
+    /// What is read off the places of members in their cluster.
+    pub enum StandingQuantity {
+        /// Ahead of the centre along the mean heading.
+        Ahead = "ahead",
+        /// Distance from the centre.
+        Distance = "distance",
+    }
+}
+
+form! {
+    /// Where members stand in their cluster, over the looks, in units of the root of its expanse: the mean of those of a group, or how
+    /// it goes together with a column over all members.
+    pub struct StandingReading {
+        /// What.
+        quantity: StandingQuantity = need, "", Any;
+        /// Members at most this far apart are linked; clusters are what hangs together.
+        linking_distance: f64 = need, "length", Positive;
+        /// The group whose mean it is; left out, everyone. Clusters are of everyone.
+        group: Option<String> = none, "", Any;
+        /// A column: then it is the rank correlation of the members' mean places with the means of this column.
+        with: Option<String> = none, "", Any;
+    }
+}
+
 tagged! {
     /// What is read off a trial: one number.
     pub enum Quantity {
@@ -437,6 +525,12 @@ tagged! {
         detection => Detection(DetectionReading);
         /// Something of the food.
         food => Food(FoodReading);
+        /// Who comes to a place.
+        arrival => Arrival(ArrivalReading);
+        /// A turn that passes through a group.
+        transfer => Transfer(TransferReading);
+        /// Where members stand in their cluster.
+        standing => Standing(StandingReading);
         /// The distance between obstacles.
         obstacle_distance => ObstacleDistance(ObstacleReading);
         /// How uneven the density is along the way.

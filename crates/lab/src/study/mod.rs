@@ -4,6 +4,7 @@
 //! trial. [`plan`] makes cells and conditions of it, [`execute`] runs what is missing and keeps it in an append-only log,
 //! [`tables`] writes the tables, [`claims`] judges statements, [`report`] draws the page.
 
+mod arrival;
 pub mod bearing;
 pub mod claims;
 pub mod consensus;
@@ -18,7 +19,9 @@ pub mod plan;
 pub mod profile;
 pub mod report;
 pub mod reversals;
+mod standing;
 pub mod tables;
+mod transfer;
 pub mod trial;
 mod way_points;
 

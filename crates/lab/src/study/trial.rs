@@ -1,5 +1,6 @@
 //! One trial: a condition's world with the seed of the trial, stepped to its end and looked at on the way.
 
+use super::arrival::Arrival;
 use super::bearing::Bearing;
 use super::consensus::Consensus;
 use super::correlation::CorrelationLength;
@@ -13,6 +14,8 @@ use super::meals::Meals;
 use super::plan::{Condition, Plan, entry_place};
 use super::profile::Profile;
 use super::reversals::Reversals;
+use super::standing::Standing;
+use super::transfer::OfTransfer;
 use super::way_points::{WayPoints, detections};
 use crate::file::{Desk, Node};
 use crate::scenario::build;
@@ -242,7 +245,7 @@ impl<'w, R: Scalar, const D: usize> Look<'w, R, D> {
     }
 }
 
-fn wide_space<R: Real, const D: usize>(space: &Space<R, D>) -> Space<f64, D> {
+pub(super) fn wide_space<R: Real, const D: usize>(space: &Space<R, D>) -> Space<f64, D> {
     Space {
         edges: space.edges.map(|edge| match edge {
             Edge::Open => Edge::Open,
@@ -355,6 +358,19 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
         Quantity::WayPoints(reading) => Box::new(WayPoints::new(reading, declared)?),
         Quantity::Detection(reading) => Box::new(OfDetections { reading: reading.clone() }),
         Quantity::Food(reading) => Box::new(Meals::new(reading, world)?),
+        Quantity::Arrival(reading) => {
+            if reading.at.len() != D {
+                return Err(format!("`at` has {} coordinates in {D} dimensions", reading.at.len()));
+            }
+            Box::new(Arrival::new(reading, group(reading.group.as_deref())?))
+        }
+        Quantity::Transfer(reading) => {
+            Box::new(OfTransfer::new(reading, column(&reading.column)?, group(reading.group.as_deref())?))
+        }
+        Quantity::Standing(reading) => {
+            let with = reading.with.as_deref().map(column).transpose()?;
+            Box::new(Standing::new(reading, with, group(reading.group.as_deref())?))
+        }
         Quantity::ObstacleDistance(reading) => Box::new(OfObstacles { scale: reading.scale }),
         Quantity::Profile(reading) => Box::new(Profile::new(reading, world)?),
         Quantity::Correlation(reading) => Box::new(CorrelationLength::new(reading)),

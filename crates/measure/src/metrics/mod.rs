@@ -56,6 +56,7 @@ metrics! {
     view_largest_share_literal::ViewLargestShareLiteral;
     view_groups_mutual::ViewGroupsMutual;
     view_largest_share_mutual::ViewLargestShareMutual;
+    visible_share::VisibleShare;
     mean_speed::MeanSpeed;
     speed_sd::SpeedSd;
     group_speed::GroupSpeed;

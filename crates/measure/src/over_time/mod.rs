@@ -34,6 +34,7 @@ over_time! {
     domains_of_danger::DomainsOfDanger;
     occupied_area::OccupiedArea;
     occupancy::Occupancy;
+    relative_positions::RelativePositions;
     group_overlap::GroupOverlap;
     group_membership::GroupMembership;
     nearest_neighbours::NearestNeighbours;

@@ -72,6 +72,12 @@ impl<R: Scalar> Conduct<R> {
         })
     }
 
+    /// Whether an agent with these columns of its body follows its law.
+    #[inline(always)]
+    pub(crate) fn follows_law(&self, body: &[R]) -> bool {
+        body.get(self.columns.start).is_none_or(|&state| state == R::count(FORAGE))
+    }
+
     /// The motion of an agent that its law wants to move as `wanted`; its state is kept among the columns of its body.
     #[inline(never)]
     pub(crate) fn motion<const D: usize>(

@@ -331,8 +331,11 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 _ => Motion { velocity, displacement: Vector::ZERO },
             }
         };
-        let (unhindered, performed) =
-            if alive { stages.perform(&view, row, wanted, dt, &mut scratch.body) } else { (position, velocity) };
+        let (unhindered, performed) = if alive {
+            stages.perform(&view, row, wanted, dt, &scratch.own, &mut scratch.body)
+        } else {
+            (position, velocity)
+        };
         let mut explanation = Explanation {
             agent: id,
             group: group.name.clone(),

@@ -1,5 +1,6 @@
 //! One group's way through the stages: chosen once, called once per block of agents.
 
+use crate::engine::beside::{Adapts, Pace, Taxis};
 use crate::engine::coarse::Coarse;
 use crate::engine::conduct::Conduct;
 use crate::motion::{
@@ -11,7 +12,7 @@ use crate::physics::Mobility;
 use crate::resources::Resources;
 use crate::selection::{self, Candidates, NamedSet, RINGS, Reach, Rings};
 use crate::sensing::robot::{Memory, Robot, RobotScratch};
-use crate::sensing::{Ideal, Occlusion};
+use crate::sensing::{Ideal, Occlusion, Pool};
 use core::ops::Range;
 use space::grid::Segment;
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
@@ -52,6 +53,8 @@ pub(crate) struct View<'a, R, const D: usize> {
     pub(crate) rows: Option<&'a [u32]>,
     /// Body radius by group, and first ids, for occlusion and scanners.
     pub(crate) bodies: &'a [(u32, R)],
+    /// Whether members may be unequally fast.
+    pub(crate) uneven: bool,
     pub(crate) seed: u64,
     pub(crate) step: u64,
     pub(crate) time: f64,
@@ -124,6 +127,10 @@ pub(crate) struct Stages<R, const D: usize> {
     pub(crate) obstacle_reach: Option<R>,
     /// What it does beside its law.
     pub(crate) conduct: Option<Conduct<R>>,
+    pub(crate) taxis: Option<Taxis<R, D>>,
+    pub(crate) pace: Option<Pace<R, D>>,
+    /// What its parameters adapt to.
+    pub(crate) adapts: Option<Adapts<R>>,
     /// Whether a motion that is no number is not made.
     pub(crate) guarded: bool,
     pub(crate) mobility: Mobility<R>,
@@ -375,7 +382,7 @@ impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
     /// # Safety
     /// No other worker writes this row.
     #[inline(always)]
-    unsafe fn write(&self, row: usize, position: Vector<R, D>, velocity: Vector<R, D>) {
+    pub(crate) unsafe fn write(&self, row: usize, position: Vector<R, D>, velocity: Vector<R, D>) {
         for a in 0..D {
             // SAFETY: the caller's promise; rows are in bounds.
             unsafe {
@@ -398,7 +405,7 @@ impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
     /// # Safety
     /// No other worker writes this row.
     #[inline(always)]
-    unsafe fn write_state(&self, row: usize, columns: &[usize], values: &[R]) {
+    pub(crate) unsafe fn write_state(&self, row: usize, columns: &[usize], values: &[R]) {
         for (&column, &value) in columns.iter().zip(values) {
             // SAFETY: the caller's promise; rows are in bounds.
             unsafe { self.state[column].write(row, value) };
@@ -445,7 +452,7 @@ pub(crate) trait Kernel<R: Scalar, const D: usize>: Send + Sync {
 
 impl<R: Scalar, const D: usize> Stages<R, D> {
     #[inline(always)]
-    fn mine(&self, id: u32) -> bool {
+    pub(crate) fn mine(&self, id: u32) -> bool {
         id.wrapping_sub(self.first) < self.count
     }
     /// From the wanted to the actual motion, before contacts: the place reached and the velocity.
@@ -456,12 +463,24 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         row: usize,
         wanted: Motion<R, D>,
         dt: R,
+        own: &[R],
         body: &mut [R],
     ) -> (Vector<R, D>, Vector<R, D>) {
         let (position, velocity) = (view.now.position(row), view.now.velocity(row));
         let mut motion = wanted;
+        let mut follows = true;
         if let Some(conduct) = &self.conduct {
             motion = conduct.motion(view, row, motion, dt, body);
+            follows = conduct.follows_law(body);
+        }
+        if let Some(taxis) = self.taxis.as_ref().filter(|_| follows) {
+            motion = taxis.motion(view, row, motion, own, body);
+        }
+        if let Some(pace) = &self.pace {
+            motion = pace.motion(view, row, motion, own, dt, body);
+        }
+        if let Some(adapts) = &self.adapts {
+            adapts.note(view, row, self.radius, dt, body);
         }
         if !matches!(self.mobility, Mobility::Ideal) {
             motion = self.mobility.perform(velocity, motion, dt, body);
@@ -773,12 +792,15 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             scratch.retain(|s, k| crate::motion::in_view::<R, R, D>(&heading.0, &s.at(k).0, s.squared[k], limit));
         }
         if ideal.occlusion != Occlusion::None {
-            self.hide(view, row, scratch, ideal.occlusion == Occlusion::All);
+            self.hide(view, row, scratch, ideal.occlusion == Occlusion::All, ideal.free);
         }
         let noise = &ideal.noise;
         if noise.miss > R::ZERO {
             let miss = noise.miss.to_f64();
             scratch.retain(|s, k| draws.uniform_about(view.others.id[s.row[k] as usize], 0) >= miss);
+        }
+        if let Some(pool) = &ideal.one_of {
+            Self::draw_one(pool, view, row, &draws, scratch);
         }
         if noise.distance > R::ZERO || noise.direction > R::ZERO {
             for k in 0..scratch.found {
@@ -823,17 +845,38 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             }
         }
     }
-    /// Drops members hidden behind nearer bodies or opaque obstacles.
-    fn hide(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>, bodies: bool) {
+    /// Drops all but one of the nearest, which is drawn.
+    fn draw_one(pool: &Pool<R>, view: &View<'_, R, D>, row: usize, draws: &DrawStream, scratch: &mut Scratch<R, D>) {
+        scratch.sort_by_distance();
+        let heading = view.now.velocity(row).unit();
+        let nearest = scratch.found.min(pool.nearest);
+        let weight = |scratch: &Scratch<R, D>, n: usize| {
+            let offset = scratch.at(scratch.order[n] as usize);
+            pool.weight.of(offset.length(), heading.angle_to(offset))
+        };
+        let total: f64 = (0..nearest).map(|n| weight(scratch, n)).sum();
+        // where all weights vanish, the nearest
+        let mut left = draws.uniform(0) * total;
+        let mut drawn = 0;
+        for n in 0..nearest {
+            drawn = n;
+            left -= weight(scratch, n);
+            if left < 0.0 || total <= 0.0 {
+                break;
+            }
+        }
+        let one = scratch.order.get(drawn).map(|&k| k as usize);
+        scratch.retain(|_, k| Some(k) == one);
+    }
+    /// Drops members hidden behind nearer bodies or opaque obstacles: whose centre is hidden, or of whose disc less than a share
+    /// is free.
+    fn hide(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>, bodies: bool, free: Option<R>) {
+        if let Some(least) = free {
+            return self.hide_in_part(view, row, scratch, bodies, least);
+        }
         let place = view.now.position(row);
         let count = scratch.found;
-        scratch.order.clear();
-        scratch.order.extend(0..count as u32);
-        let squared = &scratch.squared;
-        scratch.order.sort_unstable_by(|&a, &b| {
-            let (x, y) = (squared[a as usize], squared[b as usize]);
-            x.partial_cmp(&y).unwrap_or(core::cmp::Ordering::Equal).then(a.cmp(&b))
-        });
+        scratch.sort_by_distance();
         scratch.chosen.clear();
         scratch.chosen.resize(count, true);
         for n in 0..count {
@@ -849,6 +892,39 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 });
             let walled = !hidden && !view.obstacles.is_empty() && view.obstacles.hides(place, place + to);
             scratch.chosen[k] = !(hidden || walled);
+        }
+        let chosen = core::mem::take(&mut scratch.chosen);
+        scratch.retain(|_, k| chosen[k]);
+        scratch.chosen = chosen;
+    }
+    /// Drops members of whose disc, as it is seen, less than a share is free: lines of sight to points spread evenly over it
+    /// are followed.
+    fn hide_in_part(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>, bodies: bool, least: R) {
+        let place = view.now.position(row);
+        let count = scratch.found;
+        scratch.sort_by_distance();
+        scratch.chosen.clear();
+        scratch.chosen.resize(count, true);
+        let radius_of = |scratch: &Scratch<R, D>, m: usize| view.body_radius(view.others.id[scratch.row[m] as usize]);
+        for n in 0..count {
+            let k = scratch.order[n] as usize;
+            let (to, far) = (scratch.at(k), scratch.squared[k]);
+            let radius = radius_of(scratch, k);
+            let mut clear = 0;
+            for aside in disc_points::<R, D>(to.unit()) {
+                let to = to + aside * radius;
+                let squared = to.length_squared().most(R::TINY);
+                let hidden = bodies
+                    && scratch.order[..n].iter().any(|&m| {
+                        let (m, other) = (m as usize, scratch.at(m as usize));
+                        let radius = radius_of(scratch, m);
+                        let along = (other.dot(to) / squared).clamped(R::ZERO, R::ONE);
+                        scratch.squared[m] < far && (other - to * along).length_squared() < radius * radius
+                    });
+                let walled = !hidden && !view.obstacles.is_empty() && view.obstacles.hides(place, place + to);
+                clear += usize::from(!(hidden || walled));
+            }
+            scratch.chosen[k] = R::count(clear) >= least * R::count(DISC);
         }
         let chosen = core::mem::take(&mut scratch.chosen);
         scratch.retain(|_, k| chosen[k]);
@@ -892,7 +968,41 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     }
 }
 
+/// Lines of sight to a disc.
+const DISC: usize = 19;
+
+/// Points of a disc of radius 1 that is seen along a direction, each for an equal part of it: along its diameter in the plane,
+/// in space on a spiral whose turns are golden angles.
+fn disc_points<R: Scalar, const D: usize>(along: Vector<R, D>) -> impl Iterator<Item = Vector<R, D>> {
+    let first = if D == 2 {
+        along.left()
+    } else if D > 2 {
+        along.perpendicular()
+    } else {
+        Vector::ZERO
+    };
+    let second = along.cross3(first);
+    (0..DISC).map(move |k| {
+        let part = R::of((k as f64 + 0.5) / DISC as f64);
+        if D == 2 {
+            return first * (part + part - R::ONE);
+        }
+        let (sine, cosine) = R::of(k as f64 * 2.399_963_229_728_653).sin_cos();
+        (first * cosine + second * sine) * part.root()
+    })
+}
+
 impl<R: Scalar, const D: usize> Scratch<R, D> {
+    /// Puts the detected members in order of their distance; ties keep the order in which they were met.
+    fn sort_by_distance(&mut self) {
+        self.order.clear();
+        self.order.extend(0..self.found as u32);
+        let squared = &self.squared;
+        self.order.sort_unstable_by(|&a, &b| {
+            let (x, y) = (squared[a as usize], squared[b as usize]);
+            x.partial_cmp(&y).unwrap_or(core::cmp::Ordering::Equal).then(a.cmp(&b))
+        });
+    }
     fn make_room(&mut self, count: usize) {
         if self.sensed.id.len() < count + PADDING {
             self.sensed = Columns::new(2 * count, self.sensed.state.len());
@@ -1181,6 +1291,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             others: if indirect { &scratch.sensed } else { view.others },
             columns: &stages.columns,
             whole: scratch.whole,
+            uneven: view.uneven,
             rough: if scratch.rough {
                 Some(Rough { from: position, squared: &scratch.rough_squared, margin: scratch.margin })
             } else {
@@ -1293,7 +1404,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         out: &Writer<'_, R, D>,
         scratch: &mut Scratch<R, D>,
     ) {
-        let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &mut scratch.body);
+        let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &scratch.own, &mut scratch.body);
         if !self.stages.plain && velocity != wanted.velocity {
             self.law.performed(&mut scratch.own, velocity);
         }
@@ -1724,7 +1835,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         for k in 0..count {
             let pick = |from: &[[R; WIDEST]; D]| Vector(core::array::from_fn(|a| from[a][k]));
             let wanted = Motion { velocity: pick(&velocity), displacement: pick(&displacement) };
-            let (place, velocity) = stages.perform(view, row + k, wanted, stages.dt, &mut []);
+            let (place, velocity) = stages.perform(view, row + k, wanted, stages.dt, &[], &mut []);
             // SAFETY: as above.
             unsafe { out.write(row + k, place, velocity) };
         }
@@ -1752,7 +1863,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         }
         let wanted = self.conclude(view, row, sums, first, Self::item(view, row, item), scratch);
         let mut body = core::mem::take(&mut scratch.body);
-        let (place, velocity) = stages.perform(view, row, wanted, stages.dt, &mut body);
+        let (place, velocity) = stages.perform(view, row, wanted, stages.dt, &scratch.own, &mut body);
         // SAFETY: as above.
         unsafe {
             out.write(row, place, velocity);

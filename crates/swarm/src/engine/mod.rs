@@ -1,5 +1,6 @@
 //! The world and its engine: the only hot loop, the drivers, checkpoints.
 
+mod beside;
 mod checkpoint;
 mod coarse;
 mod compiled;
@@ -7,6 +8,7 @@ mod conduct;
 mod contacts;
 pub mod explain;
 mod kernel;
+mod layered;
 mod plan;
 mod step;
 mod world;

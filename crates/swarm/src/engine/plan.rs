@@ -1,11 +1,14 @@
 //! What a world is built from.
 
+use crate::adaptation::{Adaptation, Varied};
 use crate::conduct::Conduct;
 use crate::engine::{MotionNoise, Sensing};
+use crate::pace::Pace;
 use crate::parameters::{ParameterError, Values};
 use crate::physics::{Contact, Mobility};
 use crate::resources::ResourcePlan;
 use crate::selection::Perception;
+use crate::stimulus::{Stimulus, Taxis};
 use space::obstacles::Obstacle;
 use space::{Real, Space, Vector};
 use std::collections::BTreeMap;
@@ -111,6 +114,12 @@ pub struct GroupPlan<R, const D: usize> {
     pub model: String,
     /// Its parameters; those left out take their defaults.
     pub parameters: Values,
+    /// Parameters of which every member has its own value.
+    pub varied: Vec<Varied>,
+    /// Other parameters in a situation.
+    pub adapt: Option<Adaptation<R>>,
+    /// Steps between two decisions, by member; empty where all decide in every step.
+    pub intervals: Vec<u64>,
     /// The start.
     pub placement: Placement<R, D>,
     /// Sensing.
@@ -119,6 +128,10 @@ pub struct GroupPlan<R, const D: usize> {
     pub sets: Vec<(String, Perception<R, D>)>,
     /// What it does beside its law.
     pub conduct: Option<Conduct<R>>,
+    /// How it goes up a stimulus.
+    pub taxis: Option<Taxis<R>>,
+    /// How its speed varies; `None`: as the law says.
+    pub pace: Option<Pace<R>>,
     /// What a body can do.
     pub mobility: Mobility<R>,
     /// What happens on contact; `None`: as the model says.
@@ -137,10 +150,15 @@ impl<R: Real, const D: usize> GroupPlan<R, D> {
             count,
             model: model.to_owned(),
             parameters,
+            varied: Vec::new(),
+            adapt: None,
+            intervals: Vec::new(),
             placement,
             sensing: Sensing::default(),
             sets: Vec::new(),
             conduct: None,
+            taxis: None,
+            pace: None,
             mobility: Mobility::Ideal,
             contact: None,
             radius: None,
@@ -158,6 +176,8 @@ pub struct WorldPlan<R, const D: usize> {
     pub groups: Vec<GroupPlan<R, D>>,
     /// Obstacles.
     pub obstacles: Vec<Obstacle<R, D>>,
+    /// Stimuli.
+    pub stimuli: Vec<Stimulus<R, D>>,
     /// Resources.
     pub resources: Option<ResourcePlan<R, D>>,
     /// Who acts when.
@@ -179,6 +199,7 @@ impl<R: Real, const D: usize> WorldPlan<R, D> {
             space,
             groups: vec![group],
             obstacles: Vec::new(),
+            stimuli: Vec::new(),
             resources: None,
             driver: Driver::Synchronous,
             index: IndexChoice::Automatic,

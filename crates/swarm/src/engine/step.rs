@@ -160,7 +160,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         let mut memory = self.memory.get(row).cloned();
         let wanted = group.kernel.one(&view, row, scratch, memory.as_mut());
         let stages = group.kernel.stages();
-        let (place, velocity) = stages.perform(&view, row, wanted, self.dt, &mut scratch.body);
+        let (place, velocity) = stages.perform(&view, row, wanted, self.dt, &scratch.own, &mut scratch.body);
         if velocity != wanted.velocity {
             group.kernel.performed(&mut scratch.own, velocity);
         }
@@ -255,7 +255,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
             let command = clocks.command[row];
             let motion = Motion { velocity: command.velocity, displacement: command.displacement * step };
             let stages = self.groups[self.group_of(row as u32)].kernel.stages();
-            let (place, velocity) = stages.perform(&self.view(), row, motion, step, &mut scratch.body);
+            let (place, velocity) = stages.perform(&self.view(), row, motion, step, &scratch.own, &mut scratch.body);
             let kernel = &self.groups[self.group_of(row as u32)].kernel;
             if velocity != motion.velocity {
                 kernel.performed(&mut scratch.own, velocity);

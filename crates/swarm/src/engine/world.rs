@@ -1,15 +1,18 @@
 //! The world: columns, index, obstacles, resources, groups.
 
+use crate::adaptation::Adaptation;
 use crate::conduct::stored;
 use crate::detection::readings::ErrorCount;
+use crate::engine::beside::{Adapts, Pace, Taxis, Told};
 use crate::engine::coarse::Coarse;
 use crate::engine::compiled::Compiled;
 use crate::engine::conduct::Conduct;
 use crate::engine::kernel::{Close, Index, Kernel, Scratch, Sensing, Stages, View};
+use crate::engine::layered::{Layered, column_of, laws};
 use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
-use crate::models::{self, Catalogue, Models};
+use crate::models::{Catalogue, Models};
 use crate::motion::{Injected, Motion, Start as Completion};
-use crate::parameters::Scalar;
+use crate::parameters::{Scalar, Value};
 use crate::physics::{Contact, Met, Mobility};
 use crate::resources::Resources;
 use crate::selection::{NamedSet, Perception, Reach, Rings};
@@ -90,6 +93,8 @@ pub struct World<R: Scalar, const D: usize> {
     pub(crate) rows: Vec<u32>,
     pub(crate) needs_rows: bool,
     pub(crate) bodies: Vec<(u32, R)>,
+    /// Whether members may be unequally fast.
+    pub(crate) uneven: bool,
     pub(crate) driver: Driver,
     pub(crate) dt: R,
     pub(crate) clocks: Clocks<R, D>,
@@ -169,18 +174,19 @@ where
         let widest = plan.groups.iter().filter_map(|g| g.radius).fold(R::ZERO, Real::most);
         let mut prepared = Vec::new();
         for group in &plan.groups {
-            let model = prepare::<R, D>(group)?;
-            let own: Vec<usize> = model.columns.iter().map(&mut column).collect();
+            let laws = laws::<R, D>(group)?;
+            let own: Vec<usize> = laws[0].columns.iter().map(&mut column).collect();
             let mut body: Vec<usize> = group.mobility.columns().iter().map(&mut column).collect();
             let conduct = group.conduct.iter().flat_map(|conduct| conduct.columns());
             body.extend(conduct.map(&mut column));
+            body.extend(beside_columns(group).iter().map(&mut column));
             let stores = plan.resources.iter().flat_map(|resources| &resources.stores);
             for at in stores.map(|store| column(&stored(&store.column))) {
                 if !own.contains(&at) && !body.contains(&at) {
                     body.push(at);
                 }
             }
-            prepared.push((model, own, body));
+            prepared.push((laws, own, body));
         }
         let mut next = 0u32;
         let all: Vec<GroupRange> = plan
@@ -193,98 +199,137 @@ where
             })
             .collect();
         let find = |name: &str| declared.iter().position(|c| c.name == name);
-        let dt = prepared.first().map_or(R::ONE, |(model, ..)| model.time_step);
-        let obstacle_reach = prepared.iter().filter_map(|(m, ..)| m.obstacle_reach).fold(R::ZERO, Real::most);
+        let dt = prepared.first().map_or(R::ONE, |(laws, ..)| laws[0].time_step);
+        let adapting = plan.groups.iter().filter_map(|group| group.adapt.as_ref()?.obstacle);
+        let reaches = prepared.iter().flat_map(|(laws, ..)| laws.iter().filter_map(|law| law.obstacle_reach));
+        let obstacle_reach = reaches.chain(adapting).fold(R::ZERO, Real::most);
         let (mut groups, mut bodies) = (Vec::new(), Vec::new());
         let mut first = 0u32;
         let (mut identity, mut guarded) = (false, true);
         let mut reach: Option<Reach<R>> = None;
-        let mut headings = false;
-        for (group, (model, own, body)) in plan.groups.iter().zip(prepared) {
-            if model.time_step != dt {
-                return Err(in_group(
-                    group,
-                    format!(
-                        "its step is {} and that of the first group {dt}; all groups share one step",
-                        model.time_step
-                    ),
-                ));
-            }
-            let radius = group.radius.unwrap_or(model.body_radius);
-            let (sets, own_sets) = chosen_sets(group, &model.sets)?;
-            let set_reach =
-                sets.iter().map(|s| s.perception.reach()).reduce(Reach::and).unwrap_or(Reach::Within(R::TINY));
-            let mut sensing = group.sensing.clone();
-            let uses_sets = !own_sets || model.stream_reach.is_none();
-            let mut needs = model.needs;
-            needs.identity |= sets.iter().any(|s| s.perception.identifies());
-            match &mut sensing {
-                Sensing::Ideal(ideal) => ideal.check().map_err(|problem| in_group(group, problem))?,
-                Sensing::Scanner(robot) => {
-                    refuse_what_a_scanner_cannot_give(group, needs, robot.association.is_some(), D)?;
-                    robot.widest_body = widest.most(radius);
+        let (mut headings, mut uneven) = (false, false);
+        for (group, (laws, own, body)) in plan.groups.iter().zip(prepared) {
+            let mut kernels = Vec::new();
+            let mut speeds = laws.iter().flat_map(|law| &law.initial_speeds);
+            let first_speed = speeds.next();
+            uneven |= group.conduct.is_some()
+                || group.pace.as_ref().is_some_and(|pace| pace.least < pace.greatest)
+                || speeds.any(|speed| Some(speed) != first_speed);
+            let contact = group.contact.unwrap_or(laws[0].contact);
+            let radius = group.radius.unwrap_or(laws[0].body_radius);
+            let (meets, steps) = (laws[0].bodies_meet, laws[0].velocity_is_step);
+            let own_range = GroupRange { name: group.name.clone(), first, count: group.count as u32 };
+            let columns_of = |places: &[usize]| places.iter().map(|&at| declared[at]).collect::<Vec<Column>>();
+            let (own_columns, body_columns) = (columns_of(&own), columns_of(&body));
+            let told = Told { own: &own_columns, body: &body_columns };
+            if !group.intervals.is_empty() {
+                if matches!(plan.driver, Driver::Asynchronous { .. }) {
+                    let problem = "decides: agents on their own clocks have the period of the driver; leave one out";
+                    return Err(in_group(group, problem.into()));
+                }
+                if group.intervals.len() != group.count {
+                    let (found, count) = (group.intervals.len(), group.count);
+                    return Err(in_group(group, format!("decides: {found} intervals for {count} members")));
                 }
             }
-            let group_reach = match (&sensing, model.stream_reach) {
-                (Sensing::Scanner(robot), _) => Reach::Within(robot.scanner_range() + robot.widest_body),
-                (Sensing::Ideal(ideal), _) if ideal.range.is_some() => {
-                    Reach::Within(ideal.range.unwrap_or(R::INFINITY).least(if let Reach::Within(r) = set_reach {
-                        r
-                    } else {
-                        R::INFINITY
-                    }))
+            for model in laws {
+                if model.time_step != dt {
+                    return Err(in_group(
+                        group,
+                        format!(
+                            "its step is {} and that of the first group {dt}; all groups share one step",
+                            model.time_step
+                        ),
+                    ));
                 }
-                (_, Some(r)) if !uses_sets => {
-                    if r.finite() {
-                        Reach::Within(r)
-                    } else {
-                        Reach::All
+                let (sets, own_sets) = chosen_sets(group, &model.sets)?;
+                let set_reach =
+                    sets.iter().map(|s| s.perception.reach()).reduce(Reach::and).unwrap_or(Reach::Within(R::TINY));
+                let mut sensing = group.sensing.clone();
+                let uses_sets = !own_sets || model.stream_reach.is_none();
+                let mut needs = model.needs;
+                needs.identity |= sets.iter().any(|s| s.perception.identifies());
+                match &mut sensing {
+                    Sensing::Ideal(ideal) => ideal.check().map_err(|problem| in_group(group, problem))?,
+                    Sensing::Scanner(robot) => {
+                        refuse_what_a_scanner_cannot_give(group, needs, robot.association.is_some(), D)?;
+                        robot.widest_body = widest.most(radius);
                     }
                 }
-                _ => set_reach,
-            };
-            // the index serves the largest finite reach; who needs everyone looks at all pairs
-            reach = match (reach, group_reach) {
-                (None, Reach::All) => None,
-                (None, r) => Some(r),
-                (Some(before), Reach::All) => Some(before),
-                (Some(Reach::Within(a)), Reach::Within(b)) => Some(Reach::Within(a.most(b))),
-                (Some(Reach::Nearest(a)), Reach::Nearest(b)) => Some(Reach::Nearest(a.max(b))),
-                (Some(Reach::Within(a)), _) | (Some(_), Reach::Within(a)) => Some(Reach::Within(a)),
-                (Some(other), _) => Some(other),
-            };
-            identity |= needs.identity;
-            let contact = group.contact.unwrap_or(model.contact);
-            let own_range = GroupRange { name: group.name.clone(), first, count: group.count as u32 };
-            let place = group.mobility.columns().len();
-            let conduct = group.conduct.as_ref().map(|plan| Conduct::new(plan, &all, own_range, place, find));
-            let conduct = conduct.transpose().map_err(|problem| in_group(group, problem))?;
-            identity |= conduct.is_some();
-            guarded &= model.guarded;
-            let perfect = matches!(&sensing, Sensing::Ideal(ideal) if ideal.is_perfect());
-            let stages = Stages {
-                rings: if perfect { Rings::of(&sets) } else { None },
-                first,
-                count: group.count as u32,
-                columns: own,
-                body_columns: body,
-                sets,
-                own_sets,
-                reach: set_reach,
-                sensing,
-                obstacle_reach: model.obstacle_reach,
-                conduct,
-                guarded: model.guarded,
-                mobility: group.mobility,
-                noise: group.noise,
-                dt,
-                radius,
-                plain: group.mobility == Mobility::Ideal
-                    && group.conduct.is_none()
-                    && group.noise.execution_direction == R::ZERO
-                    && group.noise.execution_speed == R::ZERO,
-            };
-            let kernel = (model.build)(stages);
+                let group_reach = match (&sensing, model.stream_reach) {
+                    (Sensing::Scanner(robot), _) => Reach::Within(robot.scanner_range() + robot.widest_body),
+                    (Sensing::Ideal(ideal), _) if ideal.range.is_some() => {
+                        Reach::Within(ideal.range.unwrap_or(R::INFINITY).least(if let Reach::Within(r) = set_reach {
+                            r
+                        } else {
+                            R::INFINITY
+                        }))
+                    }
+                    (_, Some(r)) if !uses_sets => {
+                        if r.finite() {
+                            Reach::Within(r)
+                        } else {
+                            Reach::All
+                        }
+                    }
+                    _ => set_reach,
+                };
+                // the index serves the largest finite reach; who needs everyone looks at all pairs
+                reach = match (reach, group_reach) {
+                    (None, Reach::All) => None,
+                    (None, r) => Some(r),
+                    (Some(before), Reach::All) => Some(before),
+                    (Some(Reach::Within(a)), Reach::Within(b)) => Some(Reach::Within(a.most(b))),
+                    (Some(Reach::Nearest(a)), Reach::Nearest(b)) => Some(Reach::Nearest(a.max(b))),
+                    (Some(Reach::Within(a)), _) | (Some(_), Reach::Within(a)) => Some(Reach::Within(a)),
+                    (Some(other), _) => Some(other),
+                };
+                identity |= needs.identity;
+                let place = group.mobility.columns().len();
+                let conduct =
+                    group.conduct.as_ref().map(|plan| Conduct::new(plan, &all, own_range.clone(), place, find));
+                let conduct = conduct.transpose().map_err(|problem| in_group(group, problem))?;
+                let refused = |problem| in_group(group, problem);
+                let taxis = group.taxis.as_ref().map(|taxis| Taxis::new(taxis, &plan.stimuli, &own_range, told));
+                let taxis = taxis.transpose().map_err(refused)?;
+                let pace = group.pace.as_ref().map(|pace| Pace::new(pace, &plan.stimuli, &own_range, told));
+                let pace = pace.transpose().map_err(refused)?;
+                let adapts = group.adapt.as_ref().map(|adapt| Adapts::new(adapt, &own_range, told));
+                let adapts = adapts.transpose().map_err(refused)?;
+                identity |= conduct.is_some() || pace.is_some() || adapts.is_some();
+                guarded &= model.guarded;
+                let perfect = matches!(&sensing, Sensing::Ideal(ideal) if ideal.is_perfect());
+                let stages = Stages {
+                    rings: if perfect { Rings::of(&sets) } else { None },
+                    first,
+                    count: group.count as u32,
+                    columns: own.clone(),
+                    body_columns: body.clone(),
+                    sets,
+                    own_sets,
+                    reach: set_reach,
+                    sensing,
+                    obstacle_reach: model.obstacle_reach,
+                    conduct,
+                    taxis,
+                    pace,
+                    adapts,
+                    guarded: model.guarded,
+                    mobility: group.mobility,
+                    noise: group.noise,
+                    dt,
+                    radius,
+                    plain: group.mobility == Mobility::Ideal
+                        && group.conduct.is_none()
+                        && group.taxis.is_none()
+                        && group.pace.is_none()
+                        && group.adapt.is_none()
+                        && group.noise.execution_direction == R::ZERO
+                        && group.noise.execution_speed == R::ZERO,
+                };
+                kernels.push((model.build)(stages));
+            }
+            let kernel = Layered::of(group, kernels, plan.seed, first, steps, find);
             headings |= kernel.streams() == Some(true) || kernel.marks();
             groups.push(Group {
                 name: group.name.clone(),
@@ -292,8 +337,8 @@ where
                 kernel,
                 contact,
                 radius,
-                meets: model.bodies_meet,
-                steps: model.velocity_is_step,
+                meets,
+                steps,
             });
             bodies.push((first, radius));
             first += group.count as u32;
@@ -342,6 +387,7 @@ where
             obstacles,
             needs_rows: resources.is_some() || body_contacts || identity,
             resources,
+            uneven,
             groups,
             ranges: all,
             now: Columns::new(agents, declared.len()),
@@ -395,7 +441,8 @@ where
             let first = self.ranges[g].first as usize;
             let kernel = &self.groups[g].kernel;
             let own = &kernel.stages().columns;
-            let initial_speeds = prepare::<R, D>(group)?.initial_speeds;
+            let laws = laws::<R, D>(group)?;
+            let speed_of = |member: usize| laws.get(member).unwrap_or(&laws[0]).initial_speeds[member];
             let given: Vec<bool> = match &group.placement {
                 Placement::Given(start) => {
                     check_start(group, start, &self.declared)?;
@@ -425,7 +472,7 @@ where
                         let draw = |slot| space::random::uniform(plan.seed, Purpose::Init, id, slot);
                         let at = Vector(core::array::from_fn(|a| low[a] + (high[a] - low[a]) * R::of(draw(a as u32))));
                         let heading: Vector<R, D> = unit_vector(draw(4), draw(5));
-                        (at, Some(heading * initial_speeds[member]))
+                        (at, Some(heading * speed_of(member)))
                     }
                 };
                 let mut moving = velocity.unwrap_or(Vector::ZERO);
@@ -445,6 +492,13 @@ where
                     (group.mobility.columns().is_empty(), kernel.stages().body_columns.first())
                 {
                     self.now.state[facing][row] = moving.angle();
+                }
+                for varied in &group.varied {
+                    let name = column_of(group, &varied.parameter).name;
+                    let at = self.declared.iter().position(|column| column.name == name);
+                    if let (Some(at), Value::Number(value)) = (at, &varied.values[member]) {
+                        self.now.state[at][row] = R::of(*value);
+                    }
                 }
                 for store in plan.resources.iter().flat_map(|resources| &resources.stores) {
                     let at = self.declared.iter().position(|column| column.name == store.column);
@@ -576,6 +630,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
             mortality: self.resources.as_ref().and_then(Resources::mortality),
             rows: if self.rows.is_empty() { None } else { Some(&self.rows) },
             bodies: &self.bodies,
+            uneven: self.uneven,
             seed: self.seed,
             step: self.step,
             time: self.time,
@@ -813,21 +868,18 @@ fn in_group<R, const D: usize>(group: &GroupPlan<R, D>, problem: String) -> Worl
     WorldError::Group { group: group.name.clone(), problem }
 }
 
-fn prepare<R: Scalar, const D: usize>(group: &GroupPlan<R, D>) -> Result<models::Prepared<R, D>, WorldError>
-where
-    Models: Catalogue<R, D>,
-{
-    match Models::prepare(&group.model, &group.parameters, group.count) {
-        Some(Ok(model)) => Ok(model),
-        Some(Err(error)) => Err(WorldError::Parameter { group: group.name.clone(), error }),
-        None => Err(match models::find(&group.model) {
-            Some(entry) => WorldError::Dimension { id: group.model.clone(), asked: D, works: entry.dimensions },
-            None => WorldError::Model {
-                id: group.model.clone(),
-                nearest: nearest(&group.model, models::LIST.iter().map(|e| e.card.id)),
-            },
-        }),
+/// Columns of what a body does beside its law.
+fn beside_columns<R: Scalar, const D: usize>(group: &GroupPlan<R, D>) -> Vec<Column> {
+    let mut columns = Vec::new();
+    if group.taxis.is_some() {
+        columns.extend(crate::stimulus::Taxis::<R>::COLUMNS);
     }
+    if group.pace.as_ref().is_some_and(|pace| pace.drive.is_some()) {
+        columns.push(crate::pace::Pace::<R>::DRIVE);
+    }
+    columns.extend(group.adapt.iter().flat_map(Adaptation::columns));
+    columns.extend(group.varied.iter().map(|varied| column_of(group, &varied.parameter)));
+    columns
 }
 
 fn check_world<R: Scalar, const D: usize>(plan: &WorldPlan<R, D>) -> Result<(), WorldError> {
@@ -837,6 +889,10 @@ fn check_world<R: Scalar, const D: usize>(plan: &WorldPlan<R, D>) -> Result<(), 
         {
             return Err(WorldError::World(format!("side {a} of the space must be more than 0, found {side}")));
         }
+    }
+    for stimulus in &plan.stimuli {
+        let told = |problem| WorldError::World(format!("stimulus `{}`: {problem}", stimulus.name));
+        stimulus.field.check().map_err(told)?;
     }
     for (g, group) in plan.groups.iter().enumerate() {
         if plan.groups[..g].iter().any(|other| other.name == group.name) {

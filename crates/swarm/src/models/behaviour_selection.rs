@@ -13,6 +13,7 @@ use crate::sensing::cos_half;
 use crate::{choice, parameters};
 use space::angles::{arc_tangent, sine_cosine, wrapped};
 use space::lanes::{Lanes, Mask, Task, level, reciprocal_root, with_lanes};
+use space::random::{Purpose, Stream as DrawStream};
 use space::{Column, ColumnKind, Real, Vector};
 
 choice! {
@@ -28,6 +29,8 @@ choice! {
         Mixed = "mixed",
         /// Everyone draws its kind anew in each step.
         Switching = "switching",
+        /// Aligns with a probability that fuzzy rules make of how many there are: none, some, or many.
+        Fuzzy = "fuzzy",
     }
 }
 choice! {
@@ -46,6 +49,24 @@ choice! {
         Unit = "unit",
         /// Of the sums as they are.
         Raw = "raw",
+    }
+}
+choice! {
+    /// What becomes of members in the zone of avoidance.
+    pub enum Avoiding {
+        /// The agent turns away from them.
+        TurnAway = "turn_away",
+        /// It takes their heading before they meet.
+        Match = "match",
+    }
+}
+choice! {
+    /// What fuzzy rules give.
+    pub enum Output {
+        /// A probability of alignment.
+        Probability = "probability",
+        /// The likelier of alignment and attraction; a draw where both are alike.
+        Crisp = "crisp",
     }
 }
 choice! {
@@ -111,6 +132,26 @@ parameters! {
         control_mode: Average = "unit", "-", "-", Any, Ours;
         /// Along which heading a step goes.
         position_update alias "move": Update = "new", "-", "-", Any, Ours;
+        /// Up to so many aligning neighbours are surely none, for the variant `fuzzy`.
+        none_until: R = 7.0, "-", "1", Any, Ours;
+        /// From so many on they are surely not none.
+        none_ends: R = 10.0, "-", "1", Any, Ours;
+        /// From so many on they begin to be many; those that are neither none nor many are some.
+        many_from: R = 10.0, "-", "1", Any, Ours;
+        /// From so many on they are surely many.
+        many_full: R = 13.0, "-", "1", Any, Ours;
+        /// Probability of alignment where they are some; it is 0 where they are none and 1 where they are many.
+        some_align: R = 0.5, "-", "1", Within(0.0, 1.0), Ours;
+        /// What the fuzzy rules give.
+        fuzzy_output: Output = "probability", "-", "-", Any, Ours;
+        /// What becomes of members in the zone of avoidance; obstacles and walls are always turned away from.
+        avoiding: Avoiding = "turn_away", "-", "-", Any, Ours;
+        /// Error of computation: standard deviation of the number of aligning neighbours.
+        count_error: R = 0.0, "-", "1", NonNegative, Ours;
+        /// Error of computation: standard deviation of the probability of alignment.
+        probability_error: R = 0.0, "-", "1", NonNegative, Ours;
+        /// Error of computation: share of the choices between alignment and attraction that are made by a coin.
+        random_choice alias "eps": R = 0.0, "epsilon", "1", Within(0.0, 1.0), Ours;
     }
 }
 
@@ -158,6 +199,7 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
                     anybody or anything in z_avoid: avoid, w = -sum e_ij + sum of unit vectors away from obstacles and walls\n\
                     only z_align filled: align, w = sum h_j;  only z_attract: attract, w = sum e_ij (N nearest of each)\n\
                     both: align if R < P = 1/(1 + exp(-K (n_align - M))), else attract;  control: w = unit(a) + unit(b)\n\
+                    fuzzy: none, some, many by trapezoids of n_align;  P = (some_align some + many) / (none + some + many)\n\
                     none: search, Dtheta = delta_1 theta_max tau, Dphi = delta_2 phi_max tau\n\
                     Dtheta = wrap(atan2(w_y, w_x) - theta), Dphi = asin(w_z/|w|) - phi, each clamped to its rate\n\
                     theta' = wrap(theta + Dtheta);  phi' = clamp(phi + Dphi, -90, 90);  x_i' = x_i + s tau h_i'",
@@ -182,6 +224,18 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
             RandomQuantity { name: "search_theta", about: "uniform in [-1, 1), in search; behaviour slot 1" },
             RandomQuantity { name: "search_phi", about: "uniform in [-1, 1), in search; behaviour slot 2" },
             RandomQuantity { name: "switch", about: "uniform in [0, 1), variant switching; behaviour slot 3" },
+            RandomQuantity {
+                name: "count_error",
+                about: "normal, with count_error; computation about oneself, slots 2 and 3",
+            },
+            RandomQuantity {
+                name: "probability_error",
+                about: "normal, with probability_error; computation about oneself, slots 4 and 5",
+            },
+            RandomQuantity {
+                name: "random_choice",
+                about: "uniform in [0, 1), with random_choice: whether a coin decides; computation about oneself, slot 6",
+            },
         ],
         taxonomy: Taxonomy {
             composition: Composition::Heterogeneous,
@@ -233,6 +287,12 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
     fn check(&self, _: usize) -> Result<(), String> {
         if self.avoidance_radius > self.alignment_radius || self.alignment_radius > self.sight_radius {
             return Err("the radii must not decrease from avoidance over alignment to sight".into());
+        }
+        let knots = [self.none_until, self.none_ends, self.many_from, self.many_full];
+        if self.variant == Variant::Fuzzy && (knots[0] > knots[1] || knots[2] > knots[3] || knots[0] > knots[2]) {
+            return Err(
+                "the knots of the fuzzy counts must not decrease: none_until, none_ends; many_from, many_full".into()
+            );
         }
         Ok(())
     }
@@ -330,6 +390,19 @@ impl<R: Scalar> Term<R> for Velocities {
     #[inline(always)]
     fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3> {
         seen.velocity(k)
+    }
+    #[inline(always)]
+    fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
+        sum_in_order::<R, Self>(seen, sight, set)
+    }
+}
+
+/// Headings, where some are faster than others.
+struct Headings;
+impl<R: Scalar> Term<R> for Headings {
+    #[inline(always)]
+    fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3> {
+        seen.heading(k)
     }
     #[inline(always)]
     fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
@@ -597,6 +670,18 @@ impl<S: Sight> Task<f32> for NearestRoughly<'_, S> {
     }
 }
 
+/// How far a number has risen from `low` to `high`, 0 to 1; half where both are that number.
+fn rising(number: f64, low: f64, high: f64) -> f64 {
+    if low < high {
+        return ((number - low) / (high - low)).clamp(0.0, 1.0);
+    }
+    match number.partial_cmp(&low) {
+        Some(core::cmp::Ordering::Greater) => 1.0,
+        Some(core::cmp::Ordering::Equal) => 0.5,
+        _ => 0.0,
+    }
+}
+
 impl<R: Scalar> BehaviourSelection<R> {
     /// The nearest `considered` of so many percepts in their order, as bits; ties go to the first.
     #[inline(always)]
@@ -677,20 +762,73 @@ impl<R: Scalar> BehaviourSelection<R> {
     }
     /// The probability of aligning with so many.
     #[inline(always)]
-    fn probability(&self, b: bool, aligning: u32) -> f64 {
+    fn probability(&self, b: bool, aligning: f64) -> f64 {
         let (preferred, growth) = match self.variant {
             Variant::Preset => return self.probability.to_f64(),
+            Variant::Fuzzy => return self.fuzzy(aligning),
             Variant::Mixed | Variant::Switching if b => (self.preferred_neighbours_b, self.growth_b),
             Variant::Mixed | Variant::Switching => (self.preferred_neighbours_a, self.growth_a),
             _ => (self.preferred_neighbours, self.growth),
         };
-        let exponent = -growth.to_f64() * (f64::from(aligning) - preferred.to_f64());
+        let exponent = -growth.to_f64() * (aligning - preferred.to_f64());
         if exponent < -40.0 {
             // what is added to 1 below is less than half of its last digit
             return 1.0;
         }
         // from libm, as everywhere
         1.0 / (1.0 + Real::exp(exponent))
+    }
+    /// The probability of aligning by the rules: none - attract, some - `some_align`, many - align.
+    #[inline(never)]
+    fn fuzzy(&self, aligning: f64) -> f64 {
+        let none = 1.0 - rising(aligning, self.none_until.to_f64(), self.none_ends.to_f64());
+        let many = rising(aligning, self.many_from.to_f64(), self.many_full.to_f64());
+        let some = (1.0 - none).min(1.0 - many);
+        let held = none + some + many;
+        // neither rule holds only where the knots leave nothing between; then they are some
+        let probability =
+            if held > 0.0 { (some * self.some_align.to_f64() + many) / held } else { self.some_align.to_f64() };
+        match self.fuzzy_output {
+            Output::Probability => probability,
+            Output::Crisp if probability > 0.5 => 1.0,
+            Output::Crisp if probability < 0.5 => 0.0,
+            Output::Crisp => 0.5,
+        }
+    }
+    /// The probability of aligning with so many, with the errors of computation.
+    #[cold]
+    fn mistaken(&self, b: bool, aligning: u32, draws: &Draws<'_>) -> f64 {
+        let stream = |s: &DrawStream| DrawStream::new(s.seed, Purpose::Computation, s.step, s.agent);
+        let off = draws.number::<f64>("count_error", 0.0, |s| stream(s).normal_about(s.agent, 2));
+        let aligning = f64::from(aligning) + self.count_error.to_f64() * off;
+        let off = draws.number::<f64>("probability_error", 0.0, |s| stream(s).normal_about(s.agent, 4));
+        let probability = self.probability(b, aligning) + self.probability_error.to_f64() * off;
+        let coin = draws.number::<f64>("random_choice", 1.0, |s| stream(s).uniform_about(s.agent, 6));
+        if coin < self.random_choice.to_f64() { 0.5 } else { probability.clamp(0.0, 1.0) }
+    }
+    /// Whether computation makes errors.
+    #[inline(always)]
+    fn errs(&self) -> bool {
+        self.count_error + self.probability_error + self.random_choice > R::ZERO
+    }
+    /// The sum of the headings of the `considered` nearest that are aligned with.
+    #[inline(always)]
+    fn aligned(&self, seen: &Percepts<'_, R, 3>, sight: &impl Sight, count: u32) -> Vector<R, 3> {
+        if seen.uneven {
+            return self.aligned_by_heading(seen, sight, count);
+        }
+        self.sum_of_nearest::<Velocities>(seen, sight, ALIGNMENT, count) / self.speed
+    }
+    #[cold]
+    #[inline(never)]
+    fn aligned_by_heading(&self, seen: &Percepts<'_, R, 3>, sight: &impl Sight, count: u32) -> Vector<R, 3> {
+        self.sum_of_nearest::<Headings>(seen, sight, ALIGNMENT, count)
+    }
+    /// What is wanted of the members that are avoided.
+    #[cold]
+    #[inline(never)]
+    fn beside(&self, seen: &Percepts<'_, R, 3>, sight: &impl Sight) -> Vector<R, 3> {
+        sum_in_order::<R, Headings>(seen, sight, AVOIDANCE)
     }
     /// The sum of headings or directions over the `considered` nearest members of a set of `count`.
     #[inline(always)]
@@ -760,7 +898,7 @@ impl<R: Scalar> BehaviourSelection<R> {
     ) {
         me.note("obstacles", from_obstacles);
         me.note("avoidance", -sum_in_order::<R, Directions>(seen, sight, AVOIDANCE));
-        let headings = self.sum_of_nearest::<Velocities>(seen, sight, ALIGNMENT, counts[ALIGNMENT]) / self.speed;
+        let headings = self.aligned(seen, sight, counts[ALIGNMENT]);
         me.note("alignment", headings);
         me.note("attraction", self.sum_of_nearest::<Directions>(seen, sight, ATTRACTION, counts[ATTRACTION]));
         let names = ["avoid", "align", "attract", "search", "average"];
@@ -812,20 +950,23 @@ impl<R: Scalar> BehaviourSelection<R> {
             (0, ..) if self.variant == Variant::Control => Behaviour::Average,
             (0, aligning, _) => {
                 let choice = draws.number::<f64>("choice", 1.0, |s| s.uniform(0));
-                let probability = self.probability(b, aligning);
+                let probability = if self.errs() {
+                    self.mistaken(b, aligning, draws)
+                } else {
+                    self.probability(b, f64::from(aligning))
+                };
                 drawn = Some((choice, probability));
                 if choice < probability { Behaviour::Align } else { Behaviour::Attract }
             }
             _ => Behaviour::Avoid,
         };
         let wanted = match behaviour {
+            Behaviour::Avoid if self.avoiding == Avoiding::Match => away + self.beside(seen, sight),
             Behaviour::Avoid => away - sum_in_order::<R, Directions>(seen, sight, AVOIDANCE),
-            Behaviour::Align => {
-                self.sum_of_nearest::<Velocities>(seen, sight, ALIGNMENT, counts[ALIGNMENT]) / self.speed
-            }
+            Behaviour::Align => self.aligned(seen, sight, counts[ALIGNMENT]),
             Behaviour::Attract => self.sum_of_nearest::<Directions>(seen, sight, ATTRACTION, counts[ATTRACTION]),
             Behaviour::Average => {
-                let a = self.sum_of_nearest::<Velocities>(seen, sight, ALIGNMENT, counts[ALIGNMENT]) / self.speed;
+                let a = self.aligned(seen, sight, counts[ALIGNMENT]);
                 let b = self.sum_of_nearest::<Directions>(seen, sight, ATTRACTION, counts[ATTRACTION]);
                 match self.control_mode {
                     Average::Unit => a.unit() + b.unit(),
@@ -984,6 +1125,11 @@ mod tests {
     type State = ([f64; 3], [f64; 3]);
     const AHEAD: [f64; 3] = [6.0, 0.0, 0.0];
 
+    /// The law with its default parameters.
+    fn law() -> BehaviourSelection<f64> {
+        <BehaviourSelection<f64> as crate::parameters::Parameters>::from_values(&crate::parameters::Values::new())
+            .unwrap_or_else(|error| unreachable!("{error}"))
+    }
     fn oracle() -> Oracle<3> {
         Oracle::new("behaviour_selection")
     }
@@ -1161,5 +1307,68 @@ mod tests {
             let angles = ["theta", "phi"].map(|name| w.state(id, name).unwrap_or(f64::NAN));
             close(w.velocity(id), (BehaviourSelection::heading_of(angles[0], angles[1]) * 6.0).0);
         }
+    }
+
+    #[test]
+    fn fuzzy_steps_are_the_limit_of_steep_growth() {
+        let crowd: Vec<State> = (0..80)
+            .map(|k| {
+                let k = f64::from(k);
+                ([(k * 7.3) % 37.0, (k * 3.7) % 31.0, (k * 5.9) % 29.0], heading(k * 37.0, (k * 17.0) % 60.0))
+            })
+            .collect();
+        let run = |oracle: Oracle<3>| {
+            let mut world = oracle.live().world(&crowd);
+            world.run(60);
+            world.frame().hash()
+        };
+        let steep = run(oracle().set("M", 6.0).set("K", 1e9));
+        let fuzzy = || oracle().set("variant", "fuzzy").set("some_align", 0.5);
+        let at = |from: f64, to: f64| {
+            let knots = [("none_until", from), ("none_ends", to), ("many_from", from), ("many_full", to)];
+            knots.into_iter().fold(fuzzy(), |oracle, (name, value)| oracle.set(name, value))
+        };
+        assert_eq!(run(at(6.0, 6.0)), steep);
+        assert_eq!(run(at(6.0, 6.0).set("fuzzy_output", "crisp")), steep);
+        assert_ne!(run(at(4.0, 9.0)), steep);
+        assert_ne!(run(oracle().set("M", 6.0).set("K", 0.5)), steep, "the limit is one");
+    }
+
+    #[test]
+    fn fuzzy_rules_give_the_probability_that_they_say() {
+        let law = BehaviourSelection::<f64> { variant: Variant::Fuzzy, some_align: 0.25, ..law() };
+        // knots 7, 10 and 10, 13: surely none, half none and half some, some, half some and half many, many
+        for (count, probability) in [(7.0, 0.0), (8.5, 0.125), (10.0, 0.25), (11.5, 0.625), (13.0, 1.0)] {
+            assert!((law.probability(false, count) - probability).abs() < 1e-12, "{count}");
+        }
+        let crisp = BehaviourSelection { fuzzy_output: Output::Crisp, ..law };
+        assert_eq!([8.5, 11.5].map(|count| crisp.probability(false, count)), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn errors_of_computation_are_made_where_they_are_asked_for() {
+        let agents = [([0.0; 3], AHEAD), ([0.0, 8.0, 0.0], heading(10.0, 5.0)), ([15.0, 0.0, -2.0], AHEAD)];
+        let behaviour = |oracle: Oracle<3>| oracle.step(&agents).state(0, "behaviour");
+        let drawn = || oracle().inject("choice", &[0.4; 3]);
+        assert_eq!(behaviour(drawn()), Some(2.0));
+        // 1 neighbour is taken for 11
+        let mistaken = drawn().set("count_error", 2.0).inject("count_error", &[5.0; 3]);
+        assert_eq!(behaviour(mistaken), Some(1.0));
+        assert_eq!(behaviour(drawn().set("probability_error", 0.5).inject("probability_error", &[1.0; 3])), Some(1.0));
+        assert_eq!(
+            behaviour(drawn().set("eps", 0.2).inject("random_choice", &[0.1; 3])),
+            Some(1.0),
+            "a coin: 0.4 < 1/2"
+        );
+        assert_eq!(behaviour(drawn().set("eps", 0.2).inject("random_choice", &[0.3; 3])), Some(2.0));
+    }
+
+    #[test]
+    fn who_is_too_near_is_matched_in_place_of_turned_away_from() {
+        let agents = [([0.0; 3], AHEAD), ([0.0, -3.0, 4.0], heading(10.0, 5.0))];
+        selects(oracle().set("avoiding", "match"), &agents, 0.0, 10.0, 5.0);
+        // a wall is turned away from all the same
+        let tank = oracle().space(Space::walled([100.0; 3])).set("avoiding", "match");
+        selects(tank, &[([50.0, 3.0, 50.0], AHEAD)], 0.0, 18.0, 0.0);
     }
 }

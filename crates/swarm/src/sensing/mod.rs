@@ -40,6 +40,52 @@ pub enum Occlusion {
     All,
 }
 
+/// How likely each of a pool is to be the one that is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PoolWeight<R> {
+    /// All alike.
+    Uniform,
+    /// By the inverse of the distance.
+    Inverse,
+    /// By its square.
+    InverseSquare,
+    /// `exp(-distance / length)`.
+    Exponential(R),
+    /// `exp(-(angle - preferred)^2 / (2 width^2))`, by the angle from the heading, rad.
+    Angle {
+        /// The angle that is preferred.
+        preferred: R,
+        /// Standard deviation about it.
+        width: R,
+    },
+}
+
+/// One member alone is perceived in each decision: one drawn among the nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pool<R> {
+    /// So many nearest of those that are perceived.
+    pub nearest: usize,
+    /// How it is drawn.
+    pub weight: PoolWeight<R>,
+}
+
+impl<R: Real> PoolWeight<R> {
+    /// The weight of a member at a distance and an angle from the heading.
+    pub fn of(&self, distance: R, angle: R) -> f64 {
+        let far = distance.to_f64().max(1e-9);
+        match *self {
+            Self::Uniform => 1.0,
+            Self::Inverse => 1.0 / far,
+            Self::InverseSquare => 1.0 / (far * far),
+            Self::Exponential(length) => Real::exp(-far / length.to_f64()),
+            Self::Angle { preferred, width } => {
+                let off = (angle - preferred).to_f64() / width.to_f64();
+                Real::exp(-0.5 * off * off)
+            }
+        }
+    }
+}
+
 /// Ideal sensing with its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ideal<R> {
@@ -49,6 +95,10 @@ pub struct Ideal<R> {
     pub field_of_view: Option<R>,
     /// What hides a member.
     pub occlusion: Occlusion,
+    /// Share of a member's disc that must be free for it to be perceived, where something hides; `None`: its centre must be.
+    pub free: Option<R>,
+    /// Whether one member alone is perceived.
+    pub one_of: Option<Pool<R>>,
     /// Errors.
     pub noise: SensingNoise<R>,
 }
@@ -56,14 +106,18 @@ pub struct Ideal<R> {
 impl<R: Real> Default for Ideal<R> {
     fn default() -> Self {
         let none = SensingNoise { distance: R::ZERO, direction: R::ZERO, heading: R::ZERO, miss: R::ZERO };
-        Self { range: None, field_of_view: None, occlusion: Occlusion::None, noise: none }
+        Self { range: None, field_of_view: None, occlusion: Occlusion::None, free: None, one_of: None, noise: none }
     }
 }
 
 impl<R: Real> Ideal<R> {
     /// Whether everybody is sensed exactly, so that laws may read the state itself.
     pub fn is_perfect(&self) -> bool {
-        self.range.is_none() && self.field_of_view.is_none() && self.occlusion == Occlusion::None && !self.noise.any()
+        self.range.is_none()
+            && self.field_of_view.is_none()
+            && self.occlusion == Occlusion::None
+            && self.one_of.is_none()
+            && !self.noise.any()
     }
     /// What can be known at load.
     ///
@@ -79,6 +133,26 @@ impl<R: Real> Ideal<R> {
             && !(opening >= R::ZERO && opening <= R::TAU * R::of(1.000_001))
         {
             return Err(format!("field of view must be from 0 to 360 degrees, found {opening} rad"));
+        }
+        if let Some(free) = self.free
+            && !(free > R::ZERO && free <= R::ONE)
+        {
+            return Err(format!(
+                "the sensing of a member needs a free share of it above 0 and at most 1, found {free}"
+            ));
+        }
+        if let Some(pool) = self.one_of {
+            if pool.nearest == 0 {
+                return Err("sensing one of a pool: it needs one member at least".into());
+            }
+            match pool.weight {
+                PoolWeight::Exponential(size) | PoolWeight::Angle { width: size, .. }
+                    if !(size > R::ZERO && size.finite()) =>
+                {
+                    return Err(format!("sensing one of a pool: length or width must be more than 0, found {size}"));
+                }
+                _ => {}
+            }
         }
         let n = &self.noise;
         for (name, value) in [("distance", n.distance), ("direction", n.direction), ("heading", n.heading)] {

@@ -69,6 +69,7 @@ fn surroundings<R: Scalar, const D: usize>(plan: &mut WorldPlan<R, D>, which: us
                 heading: R::of(0.1),
                 miss: R::of(0.1),
             },
+            ..Ideal::default()
         });
     } else {
         group.mobility = Mobility::DifferentialDrive(Default::default());
