@@ -233,8 +233,8 @@ fn variants_and_contests_are_the_same_however_they_came_about() {
     let told = done(&folder, &["check", "asked.toml"]);
     assert!(told.contains("2 variants of 2 runs"), "{told}");
     let told = done(&folder, &["run", "asked.toml", "--out", "whole", "--threads", "3"]);
-    assert!(told.contains("holds            alive: Somebody eats"), "{told}");
-    assert!(told.contains("does not hold    same: "), "{told}");
+    assert!(told.contains("holds            runs.alive: Somebody eats"), "{told}");
+    assert!(told.contains("does not hold    runs.same: "), "{told}");
     done(&folder, &["run", "asked.toml", "--out", "parts", "--threads", "1", "--set", "generations=2"]);
     done(&folder, &["run", "asked.toml", "--out", "parts", "--threads", "1"]);
     let contest = |name: &str| std::fs::read(folder.join(name).join("contest.parquet")).unwrap();
