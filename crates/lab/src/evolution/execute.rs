@@ -164,8 +164,9 @@ pub fn run(
     job.note(&[("seconds", json!(seconds)), ("generations", json!(generations))]);
     let mut judgements = Vec::new();
     if let Some(contests) = &contests {
-        judgements = report::judgements(variants, &history.runs, contests);
-        finish(&job.folder, variants, &history.runs, (contests, &judgements), program)?;
+        let asked = report::Asked::of(variants, &history.runs, contests);
+        finish(&job.folder, variants, &history.runs, (contests, &asked), program)?;
+        judgements = asked.judgements;
     }
     job.end(complete)?;
     let score = |(k, run): (usize, &Run)| {
@@ -193,8 +194,8 @@ pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
     let contests = if complete { contests(&variants, 1, &mut history, || true)? } else { None };
     match contests {
         Some(contests) => {
-            let judgements = report::judgements(&variants, &history.runs, &contests);
-            finish(&folder, &variants, &history.runs, (&contests, &judgements), program)
+            let asked = report::Asked::of(&variants, &history.runs, &contests);
+            finish(&folder, &variants, &history.runs, (&contests, &asked), program)
         }
         None => Err(StoreError::Refused(format!("`{}` is not complete; the same run command goes on", path.display()))),
     }
@@ -205,7 +206,7 @@ fn finish(
     folder: &Folder,
     variants: &Variants,
     runs: &[Run],
-    (contests, judgements): (&[Contest], &[Judgement]),
+    (contests, asked): (&[Contest], &report::Asked),
     program: &str,
 ) -> Result<(), StoreError> {
     tables::write(folder, variants, runs, contests)?;
@@ -214,7 +215,7 @@ fn finish(
             folder.write_text(&champion_file(variant), &text)?;
         }
     }
-    folder.write_text(REPORT, &crate::report::html(&report::page(variants, runs, (contests, judgements), program)))
+    folder.write_text(REPORT, &crate::report::html(&report::page(variants, runs, (contests, asked), program)))
 }
 
 /// Name of the champion's file of a variant, which counts from 0.

@@ -11,6 +11,8 @@ use super::variants::Variants;
 use crate::report::of_run::{paragraphs, short};
 use crate::report::{Axis, Fact, Figure, Line, Lines, Listing, Page, Table};
 use crate::study::claims::Judgement;
+use crate::study::execute::Results;
+use crate::study::plan::Plan as Study;
 use crate::study::report::{Answers, csv};
 use measure::statistics::{linear_regression, mean_interval, paired_t_test};
 
@@ -26,19 +28,25 @@ const COUNTED: usize = 200;
 /// A champion: place of its run among all, genes, score.
 type Champion<'a> = (usize, &'a [f64], f64);
 
-/// The statements of an evolution with what the data say of them.
-pub fn judgements(variants: &Variants, runs: &[Run], contests: &[Contest]) -> Vec<Judgement> {
-    let (study, results) = answers::of(variants, runs, contests);
-    crate::study::report::judgements(&study, &results)
+/// What an evolution was asked, beside its results put as those of a study.
+pub struct Asked {
+    study: Study,
+    results: Results,
+    /// The statements with what the data say of them.
+    pub judgements: Vec<Judgement>,
+}
+
+impl Asked {
+    /// Of all runs and contests.
+    pub fn of(variants: &Variants, runs: &[Run], contests: &[Contest]) -> Self {
+        let (study, results) = answers::of(variants, runs, contests);
+        let judgements = crate::study::report::judgements(&study, &results);
+        Self { study, results, judgements }
+    }
 }
 
 /// The page.
-pub fn page(
-    variants: &Variants,
-    runs: &[Run],
-    (contests, judgements): (&[Contest], &[Judgement]),
-    program: &str,
-) -> Page {
+pub fn page(variants: &Variants, runs: &[Run], (contests, asked): (&[Contest], &Asked), program: &str) -> Page {
     let plan = variants.first();
     let of = |(k, run): (usize, &'_ Run)| {
         (k, run.champion(&variants.plans[variants.of_run(k).0]).map(|(g, s)| (g.to_vec(), s)))
@@ -63,9 +71,8 @@ pub fn page(
     let mut methods = methods(variants);
     let mut summary = summary(variants, runs, &champions);
     if asks(plan) {
-        let (study, results) = answers::of(variants, runs, contests);
         let Answers { figures: drawn, sentences, tables: more, facts } =
-            crate::study::report::answers(&study, &results, judgements);
+            crate::study::report::answers(&asked.study, &asked.results, &asked.judgements);
         // what was asked comes first
         figures = drawn.into_iter().chain(figures).collect();
         methods.extend(sentences);

@@ -129,8 +129,8 @@ impl Searched for Evolved {
         Ok(Watched::Scenario { name, text: toml(&tree), seed: None })
     }
     fn page(&self, program: &str) -> Page {
-        let judgements = report::judgements(&self.variants, &self.runs, &self.contests);
-        report::page(&self.variants, &self.runs, (&self.contests, &judgements), program)
+        let asked = report::Asked::of(&self.variants, &self.runs, &self.contests);
+        report::page(&self.variants, &self.runs, (&self.contests, &asked), program)
     }
     fn telling(&self) -> Vec<At> {
         // the last generation of the run that came furthest, and beside it the first
