@@ -466,7 +466,24 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         own: &[R],
         body: &mut [R],
     ) -> (Vector<R, D>, Vector<R, D>) {
-        let (position, velocity) = (view.now.position(row), view.now.velocity(row));
+        let motion = if self.plain { wanted } else { self.changed(view, row, wanted, dt, own, body) };
+        let place = view.space.place(view.now.position(row) + motion.displacement);
+        // a motion that is not a number of finite size is not made
+        let fine = place.finite() && motion.velocity.finite() || !self.guarded;
+        if fine { (place, motion.velocity) } else { (view.now.position(row), view.now.velocity(row)) }
+    }
+    /// What becomes of a wanted motion that is not performed exactly. The same code for all laws: it is compiled once per
+    /// precision and dimension.
+    #[inline(never)]
+    fn changed(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        wanted: Motion<R, D>,
+        dt: R,
+        own: &[R],
+        body: &mut [R],
+    ) -> Motion<R, D> {
         let mut motion = wanted;
         let mut follows = true;
         if let Some(conduct) = &self.conduct {
@@ -483,16 +500,13 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             adapts.note(view, row, self.radius, dt, body);
         }
         if !matches!(self.mobility, Mobility::Ideal) {
-            motion = self.mobility.perform(velocity, motion, dt, body);
+            motion = self.mobility.perform(view.now.velocity(row), motion, dt, body);
         }
         if let Some((draws, aside, faster)) = self.execution_error(view, row) {
             motion = turned(motion, aside, &draws, 4);
             motion = Motion { velocity: motion.velocity * faster, displacement: motion.displacement * faster };
         }
-        let place = view.space.place(position + motion.displacement);
-        // a motion that is not a number of finite size is not made
-        let fine = place.finite() && motion.velocity.finite() || !self.guarded;
-        if fine { (place, motion.velocity) } else { (position, velocity) }
+        motion
     }
     /// Errors of execution, where there are any: their draws, the angle (rad), and the factor of the speed.
     #[inline(always)]
@@ -516,6 +530,10 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     }
     #[inline(always)]
     fn wanted(&self, view: &View<'_, R, D>, row: usize, motion: Motion<R, D>) -> Motion<R, D> {
+        if self.noise.computation > R::ZERO { self.mistaken(view, row, motion) } else { motion }
+    }
+    #[inline(never)]
+    fn mistaken(&self, view: &View<'_, R, D>, row: usize, motion: Motion<R, D>) -> Motion<R, D> {
         match self.computation_error(view, row) {
             Some((draws, aside)) => turned(motion, aside, &draws, 2),
             None => motion,
@@ -1433,7 +1451,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             }
             // SAFETY: rows of one sweep are its own.
             let memory = unsafe { self.memory(view, row, out) };
-            let wanted = self.decide(view, row, scratch, memory, None);
+            let wanted = self.decision(view, row, scratch, memory, None);
             Self::note_close(row, out, scratch);
             self.perform(view, row, wanted, self.room(scratch), out, scratch);
         }
@@ -1861,7 +1879,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             unsafe { out.write(row, view.now.position(row), view.now.velocity(row)) };
             return;
         }
-        let wanted = self.conclude(view, row, sums, first, Self::item(view, row, item), scratch);
+        let wanted = self.concluded(view, row, sums, first, Self::item(view, row, item), scratch);
         let mut body = core::mem::take(&mut scratch.body);
         let (place, velocity) = stages.perform(view, row, wanted, stages.dt, &scratch.own, &mut body);
         // SAFETY: as above.
@@ -1882,6 +1900,19 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         let item = number.to_f64() as usize;
         let place = view.resources.and_then(|resources| resources.place.get(item))?;
         Some(NearItem { offset: view.space.offset(view.now.position(row), *place), item: item as u32 })
+    }
+
+    #[inline(never)]
+    fn concluded(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        sums: &M::Sums<R>,
+        first: f64,
+        item: Option<NearItem<R, D>>,
+        scratch: &mut Scratch<R, D>,
+    ) -> Motion<R, D> {
+        self.conclude(view, row, sums, first, item, scratch)
     }
 
     #[inline(always)]

@@ -298,31 +298,24 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
     }
 }
 
-// Small traits in place of closures, which would not be compiled for the processor's widest vectors.
-
-/// Which percepts an agent sees.
-trait Sight {
+/// Which percepts an agent sees: the named sets by blocks of percepts.
+#[derive(Clone, Copy)]
+struct Sight<'a>(Marks<'a>);
+impl Sight<'_> {
     /// Members of a named set in a block of percepts.
-    fn members(&self, set: usize, block: usize) -> u16;
+    #[inline(always)]
+    fn members(self, set: usize, block: usize) -> u16 {
+        self.0[set][block]
+    }
     /// Members of a named set in so many blocks.
     #[inline(always)]
-    fn count(&self, set: usize, blocks: usize) -> u32 {
+    fn count(self, set: usize, blocks: usize) -> u32 {
         (0..blocks).map(|block| self.members(set, block).count_ones()).sum()
-    }
-}
-
-/// Sight as selection found it.
-struct Selected<'a>(Marks<'a>);
-impl Sight for Selected<'_> {
-    #[inline(always)]
-    fn members(&self, set: usize, block: usize) -> u16 {
-        self.0[set][block]
     }
 }
 
 /// Limits of azimuth and elevation about a heading.
 struct Axes<R> {
-    angles: (R, R),
     /// Cosine and sine of azimuth and elevation of the heading.
     heading: [(R, R); 2],
     /// Cosine and sine of the limits to either side, and up and down.
@@ -335,53 +328,78 @@ impl<R: Scalar> Axes<R> {
             (cos, sin)
         };
         let (half, vertical) = law.half_angles();
-        Self { angles, heading: [parts(angles.0), parts(angles.1)], limits: [parts(half), parts(vertical)] }
+        Self { heading: [parts(angles.0), parts(angles.1)], limits: [parts(half), parts(vertical)] }
     }
-    /// What [`BehaviourSelection::sees_by_axes`] says, without its angles wherever rounding cannot decide: an angle is within a
-    /// limit where the sine of their difference is not positive.
+    /// Where offsets are surely within the limits, and where surely not: what [`BehaviourSelection::sees_by_axes`] says, without
+    /// its angles, wherever rounding cannot decide. An angle is within a limit where the sine of their difference is not positive.
     #[inline(always)]
-    fn see(&self, law: &BehaviourSelection<R>, offset: Vector<R, 3>) -> bool {
-        let level = (offset[0].squared() + offset[1].squared()).root();
-        let turned = |(cos, sin): (R, R), along: R, across: R| (along * cos + across * sin, across * cos - along * sin);
-        let beyond = |(along, across): (R, R), (cos, sin): (R, R)| across.abs() * cos - along * sin;
-        let aside = beyond(turned(self.heading[0], offset[0], offset[1]), self.limits[0]);
-        let above = beyond(turned(self.heading[1], level, offset[2]), self.limits[1]);
-        let (near, far) = (level * R::of(UNSURE), (level + offset[2].abs()) * R::of(UNSURE));
-        if aside < -near && above < -far {
-            return true;
-        }
-        if above > far || (aside > near && level > R::TINY) {
-            return false;
-        }
-        law.sees_by_axes(self.angles, offset)
+    fn tell<L: Lanes<R>>(&self, offset: &[L; 3]) -> (L::Mask, L::Mask) {
+        let [x, y, z] = *offset;
+        let level = (x * x + y * y).square_root();
+        let turned = |(cos, sin): (R, R), along: L, across: L| {
+            let (cos, sin) = (L::splat(cos), L::splat(sin));
+            (along * cos + across * sin, across * cos - along * sin)
+        };
+        let beyond =
+            |(along, across): (L, L), (cos, sin): (R, R)| across.size() * L::splat(cos) - along * L::splat(sin);
+        let aside = beyond(turned(self.heading[0], x, y), self.limits[0]);
+        let above = beyond(turned(self.heading[1], level, z), self.limits[1]);
+        let unsure = L::splat(R::of(UNSURE));
+        let (near, far) = (level * unsure, (level + z.size()) * unsure);
+        let within = aside.less(-near).and(above.less(-far));
+        let beside = near.less(aside).and(L::splat(R::TINY).less(level));
+        (within, far.less(above).or(beside))
     }
 }
 
-/// Sight within limits of azimuth and elevation.
+/// The named sets without those whom the limits of azimuth and elevation hide, one set behind the other.
 struct ByAxes<'a, R> {
     law: &'a BehaviourSelection<R>,
     seen: &'a Percepts<'a, R, 3>,
-    axes: Axes<R>,
+    /// Azimuth and elevation of the heading.
+    angles: (R, R),
 }
-impl<R: Scalar> Sight for ByAxes<'_, R> {
-    fn members(&self, set: usize, block: usize) -> u16 {
-        let mut members = self.seen.marks[set][block];
-        if set != AVOIDANCE || self.law.avoid_blind {
-            for l in 0..BLOCK {
-                let hidden = members >> l & 1 == 1 && !self.axes.see(self.law, self.seen.at(block * BLOCK + l).0);
-                members &= !(u16::from(hidden) << l);
+impl<R: Scalar> Task<R> for ByAxes<'_, R> {
+    type Output = Vec<u16>;
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) -> Vec<u16> {
+        let Self { law, seen, angles } = self;
+        let axes = Axes::of(law, angles);
+        let mut marks = seen.marks.concat();
+        let blocks = seen.blocks();
+        let first_hidden = if law.avoid_blind { AVOIDANCE } else { ALIGNMENT };
+        for block in 0..blocks {
+            let asked = (first_hidden..=ATTRACTION).fold(0, |asked, set| asked | u32::from(seen.marks[set][block]));
+            if asked == 0 {
+                continue;
+            }
+            let mut visible = 0;
+            for part in (0..BLOCK).step_by(L::WIDTH) {
+                let (within, hidden) = axes.tell::<L>(&seen.several::<L>(block * BLOCK + part).0);
+                visible |= within.bits() << part;
+                let mut unsure = !(within.bits() | hidden.bits()) & mask_of(L::WIDTH) & asked >> part;
+                while unsure != 0 {
+                    let l = part + unsure.trailing_zeros() as usize;
+                    visible |= u32::from(law.sees_by_axes(angles, seen.at(block * BLOCK + l).0)) << l;
+                    unsure &= unsure - 1;
+                }
+            }
+            for set in first_hidden..=ATTRACTION {
+                marks[set * blocks + block] &= visible as u16;
             }
         }
-        members
+        marks
     }
 }
+
+// Small traits in place of closures, which would not be compiled for the processor's widest vectors.
 
 /// What is summed over neighbours.
 trait Term<R: Scalar> {
     /// That of a percept.
     fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3>;
     /// The sum over a whole set.
-    fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3>;
+    fn sum(seen: &Percepts<'_, R, 3>, sight: Sight<'_>, set: usize) -> Vector<R, 3>;
 }
 
 /// Velocities, in place of headings: all are equally fast.
@@ -392,7 +410,7 @@ impl<R: Scalar> Term<R> for Velocities {
         seen.velocity(k)
     }
     #[inline(always)]
-    fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
+    fn sum(seen: &Percepts<'_, R, 3>, sight: Sight<'_>, set: usize) -> Vector<R, 3> {
         sum_in_order::<R, Self>(seen, sight, set)
     }
 }
@@ -405,7 +423,7 @@ impl<R: Scalar> Term<R> for Headings {
         seen.heading(k)
     }
     #[inline(always)]
-    fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
+    fn sum(seen: &Percepts<'_, R, 3>, sight: Sight<'_>, set: usize) -> Vector<R, 3> {
         sum_in_order::<R, Self>(seen, sight, set)
     }
 }
@@ -419,7 +437,7 @@ impl<R: Scalar> Term<R> for Directions {
         Vector(towards(&offset.0, squared))
     }
     #[inline(always)]
-    fn sum(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
+    fn sum(seen: &Percepts<'_, R, 3>, sight: Sight<'_>, set: usize) -> Vector<R, 3> {
         with_lanes(level(), SumOfDirections { seen, sight, set })
     }
 }
@@ -434,7 +452,7 @@ fn towards<R: Scalar, L: Lanes<R>>(offset: &[L; 3], squared: L) -> [L; 3] {
 
 /// The sum over a whole set, one member after the other.
 #[inline(always)]
-fn sum_in_order<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl Sight, set: usize) -> Vector<R, 3> {
+fn sum_in_order<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: Sight<'_>, set: usize) -> Vector<R, 3> {
     let mut sum = Vector::ZERO;
     for block in 0..seen.blocks() {
         let mut members = sight.members(set, block);
@@ -448,12 +466,12 @@ fn sum_in_order<R: Scalar, T: Term<R>>(seen: &Percepts<'_, R, 3>, sight: &impl S
 
 /// Sums of the unit vectors towards the members in every sixteenth row each, so that the processor may add several at a time,
 /// and then the sum of these; the number depends neither on the processor nor on who stands between the members.
-struct SumOfDirections<'a, R, S> {
+struct SumOfDirections<'a, R> {
     seen: &'a Percepts<'a, R, 3>,
-    sight: &'a S,
+    sight: Sight<'a>,
     set: usize,
 }
-impl<R: Scalar, S: Sight> Task<R> for SumOfDirections<'_, R, S> {
+impl<R: Scalar> Task<R> for SumOfDirections<'_, R> {
     type Output = Vector<R, 3>;
     #[inline(always)]
     fn run<L: Lanes<R>>(self) -> Vector<R, 3> {
@@ -505,9 +523,9 @@ fn before<R: Scalar>(seen: &Percepts<'_, R, 3>, a: usize, b: usize) -> bool {
 }
 
 /// The nearest `considered` of a set that has more members, in their order; none where that takes more than [`KEPT`] to tell.
-struct Nearest<'a, R, S> {
+struct Nearest<'a, R> {
     seen: &'a Percepts<'a, R, 3>,
-    sight: &'a S,
+    sight: Sight<'a>,
     set: usize,
     considered: usize,
 }
@@ -548,7 +566,7 @@ fn nearer<R: Scalar, L: Lanes<R>>(
     near
 }
 
-impl<R: Scalar, S: Sight> Task<R> for Nearest<'_, R, S> {
+impl<R: Scalar> Task<R> for Nearest<'_, R> {
     type Output = Option<[u32; KEPT]>;
     #[inline(always)]
     fn run<L: Lanes<R>>(self) -> Option<[u32; KEPT]> {
@@ -627,16 +645,16 @@ fn in_order<R: Scalar, L: Lanes<R>>(numbers: &[L; KEPT], count: usize) -> R {
 
 /// Some members of a set, all of the nearest `considered` among them, by what is roughly known of their distances; none where
 /// that are more than [`KEPT`]. The answer: their numbers, and how many they are.
-struct NearestRoughly<'a, S> {
+struct NearestRoughly<'a> {
     squared: &'a [f32],
     margin: f32,
     blocks: usize,
-    sight: &'a S,
+    sight: Sight<'a>,
     set: usize,
     considered: usize,
 }
 
-impl<S: Sight> Task<f32> for NearestRoughly<'_, S> {
+impl Task<f32> for NearestRoughly<'_> {
     type Output = Option<([u32; KEPT], usize)>;
     #[inline(always)]
     fn run<L: Lanes<f32>>(self) -> Option<([u32; KEPT], usize)> {
@@ -813,7 +831,7 @@ impl<R: Scalar> BehaviourSelection<R> {
     }
     /// The sum of the headings of the `considered` nearest that are aligned with.
     #[inline(always)]
-    fn aligned(&self, seen: &Percepts<'_, R, 3>, sight: &impl Sight, count: u32) -> Vector<R, 3> {
+    fn aligned(&self, seen: &Percepts<'_, R, 3>, sight: Sight<'_>, count: u32) -> Vector<R, 3> {
         if seen.uneven {
             return self.aligned_by_heading(seen, sight, count);
         }
@@ -821,13 +839,13 @@ impl<R: Scalar> BehaviourSelection<R> {
     }
     #[cold]
     #[inline(never)]
-    fn aligned_by_heading(&self, seen: &Percepts<'_, R, 3>, sight: &impl Sight, count: u32) -> Vector<R, 3> {
+    fn aligned_by_heading(&self, seen: &Percepts<'_, R, 3>, sight: Sight<'_>, count: u32) -> Vector<R, 3> {
         self.sum_of_nearest::<Headings>(seen, sight, ALIGNMENT, count)
     }
     /// What is wanted of the members that are avoided.
     #[cold]
     #[inline(never)]
-    fn beside(&self, seen: &Percepts<'_, R, 3>, sight: &impl Sight) -> Vector<R, 3> {
+    fn beside(&self, seen: &Percepts<'_, R, 3>, sight: Sight<'_>) -> Vector<R, 3> {
         sum_in_order::<R, Headings>(seen, sight, AVOIDANCE)
     }
     /// The sum of headings or directions over the `considered` nearest members of a set of `count`.
@@ -835,7 +853,7 @@ impl<R: Scalar> BehaviourSelection<R> {
     fn sum_of_nearest<T: Term<R>>(
         &self,
         seen: &Percepts<'_, R, 3>,
-        sight: &impl Sight,
+        sight: Sight<'_>,
         set: usize,
         count: u32,
     ) -> Vector<R, 3> {
@@ -890,7 +908,7 @@ impl<R: Scalar> BehaviourSelection<R> {
         &self,
         me: &mut Me<'_, R, 3>,
         seen: &Percepts<'_, R, 3>,
-        sight: &impl Sight,
+        sight: Sight<'_>,
         counts: [u32; 3],
         from_obstacles: Vector<R, 3>,
         behaviour: Behaviour,
@@ -928,7 +946,7 @@ impl<R: Scalar> BehaviourSelection<R> {
         &self,
         me: &mut Me<'_, R, 3>,
         seen: &Percepts<'_, R, 3>,
-        sight: &impl Sight,
+        sight: Sight<'_>,
         draws: &Draws<'_>,
     ) -> Wish<R> {
         let (theta, phi) = (me.own[THETA], me.own[PHI]);
@@ -1076,10 +1094,13 @@ impl<R: Scalar> Abreast<R, 3> for BehaviourSelection<R> {
     #[inline(always)]
     fn wish(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, draws: &Draws<'_>) -> Wish<R> {
         match self.view {
-            View::Cone => self.wished(me, seen, &Selected(seen.marks), draws),
+            View::Cone => self.wished(me, seen, Sight(seen.marks), draws),
             View::Axes => {
                 let angles = (me.own[THETA], me.own[PHI]);
-                self.wished(me, seen, &ByAxes { law: self, seen, axes: Axes::of(self, angles) }, draws)
+                let marks = with_lanes(level(), ByAxes { law: self, seen, angles });
+                let (avoidance, others) = marks.split_at(seen.blocks());
+                let (alignment, attraction) = others.split_at(seen.blocks());
+                self.wished(me, seen, Sight([avoidance, alignment, attraction]), draws)
             }
         }
     }
@@ -1269,6 +1290,11 @@ mod tests {
             law.vertical_field_of_view = R::of(180.0 * number(k, 1));
             let angles = (turn(number(k, 2) - 0.5), turn(0.5 * number(k, 3) - 0.25));
             let axes = Axes::of(&law, angles);
+            let told = |offset: Vector<R, 3>| {
+                let (within, hidden) = axes.tell::<R>(&offset.0);
+                assert!(!(within && hidden));
+                within || (!hidden && law.sees_by_axes(angles, offset))
+            };
             // anywhere, and as near to a limit as can be told
             let (half, vertical) = law.half_angles();
             let slight = R::of(1e-6 * (number(k, 4) - 0.5));
@@ -1281,12 +1307,12 @@ mod tests {
             ] {
                 let offset = BehaviourSelection::heading_of(theta, phi) * R::of(10.0 * number(k, 7));
                 let exactly = law.sees_by_axes(angles, offset);
-                assert_eq!(axes.see(&law, offset), exactly, "{k}");
+                assert_eq!(told(offset), exactly, "{k}");
                 seen[usize::from(exactly)] += 1;
             }
             for offset in [[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1e-300], [1e-14, 0.0, 0.0], [1.0, 0.0, 0.0]] {
                 let offset = Vector(offset.map(R::of));
-                assert_eq!(axes.see(&law, offset), law.sees_by_axes(angles, offset), "{k} {offset:?}");
+                assert_eq!(told(offset), law.sees_by_axes(angles, offset), "{k} {offset:?}");
             }
         }
         assert!(seen.iter().all(|&count| count > 10_000), "{seen:?}");
