@@ -34,6 +34,7 @@
 pub mod behaviours;
 pub mod consensus;
 pub mod domains;
+mod doors;
 pub mod ground;
 pub mod hull;
 pub mod looks;

@@ -1,6 +1,7 @@
 //! The metrics: one file each, one line each in the list below. Files, tables, help and law tests are made from the
 //! list.
 
+use crate::doors::{in_dimensions, of_dimension};
 use crate::{Measure, MeasureError, Metric, MetricCard, Sample};
 use space::spelling::nearest;
 use space::{Frame, GroupRange, Real};
@@ -10,10 +11,7 @@ macro_rules! metrics {
         $(pub mod $file;)*
         /// The cards of all metrics, in the order of the list.
         pub const LIST: &[&MetricCard] = &[$(&<$file::$name as Metric>::CARD),*];
-        /// All metrics with their parameters at the defaults, in the order of the list.
-        pub fn all<const D: usize>() -> Vec<Box<dyn Measure<D>>> {
-            vec![$(Box::new($file::$name::default())),*]
-        }
+        in_dimensions! { Measure: $($file::$name),* }
     };
 }
 
@@ -63,6 +61,11 @@ metrics! {
     overlapping_pairs::OverlappingPairs;
     domain_of_danger_median::DomainOfDangerMedian;
     domain_of_danger_max::DomainOfDangerMax;
+}
+
+/// All metrics with their parameters at the defaults, in the order of the list; none in more than three dimensions.
+pub fn all<const D: usize>() -> Vec<Box<dyn Measure<D>>> {
+    of_dimension(in_1, in_2, in_3).unwrap_or_default()
 }
 
 /// The metric of an id, with its parameters at the defaults.

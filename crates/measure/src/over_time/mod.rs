@@ -1,6 +1,7 @@
 //! The metrics over time: one file each, one line each in the list below. What they find is a table whose columns their
 //! cards describe.
 
+use crate::doors::{in_dimensions, of_dimension};
 use crate::{MeasureError, MeasureTracks, TrackCard, TrackMetric};
 use space::spelling::nearest;
 
@@ -13,10 +14,7 @@ macro_rules! over_time {
         $(pub mod $file;)*
         /// The cards of all metrics over time, in the order of the list.
         pub const LIST: &[&TrackCard] = &[$(&<$file::$name as TrackMetric>::CARD),*];
-        /// All metrics over time with their parameters at the defaults, in the order of the list.
-        pub fn all<const D: usize>() -> Vec<Box<dyn MeasureTracks<D>>> {
-            vec![$(Box::new($file::$name::default())),*]
-        }
+        in_dimensions! { MeasureTracks: $($file::$name),* }
     };
 }
 
@@ -50,6 +48,11 @@ over_time! {
     speed_in_area::SpeedInArea;
     mean_median_distance::MeanMedianDistance;
     consensus_robustness::ConsensusRobustness;
+}
+
+/// All metrics over time with their parameters at the defaults, in the order of the list; none in more than three dimensions.
+pub fn all<const D: usize>() -> Vec<Box<dyn MeasureTracks<D>>> {
+    of_dimension(in_1, in_2, in_3).unwrap_or_default()
 }
 
 /// The metric over time of an id, with its parameters at the defaults.

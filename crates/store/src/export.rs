@@ -1,7 +1,7 @@
 //! Tables in other forms.
 
-use super::StoreError;
-use super::table::{Heading, Table, Values};
+use crate::StoreError;
+use crate::table::{Heading, Table, Values};
 use std::io::Write;
 
 /// Writes a table as CSV: a line of names, then a line for each row. Numbers read back exactly; what is not there is empty.

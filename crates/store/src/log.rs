@@ -1,7 +1,7 @@
 //! An append-only file of records, each with its length and checksum. Whatever stops the writer, the records before the
 //! one in work can be read; a torn tail is cut off when the log is opened again.
 
-use super::StoreError;
+use crate::StoreError;
 use std::fs::{File, OpenOptions};
 use std::io::{BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! The folder of a run: its manifest, its lock, and files that are whole or not there.
 
-use super::StoreError;
+use crate::StoreError;
 use serde_json::Value as Json;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{BufWriter, Write};

@@ -3,7 +3,7 @@
 //! A block is a small Parquet file of one row group, made apart from others; joined, blocks become one file without being
 //! encoded again. Equal values give equal bytes.
 
-use super::StoreError;
+use crate::StoreError;
 use bytes::Bytes;
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::column::reader::ColumnReader;
@@ -367,7 +367,7 @@ const ROWS: usize = 65_536;
 /// # Errors
 /// Where the system refuses.
 pub fn write_table(
-    folder: &super::folder::Folder,
+    folder: &crate::folder::Folder,
     name: &str,
     headings: &[Heading],
     columns: &[Values],
@@ -385,7 +385,7 @@ pub fn write_table(
 /// # Errors
 /// As of [`write_table`].
 pub fn write_rows<R>(
-    folder: &super::folder::Folder,
+    folder: &crate::folder::Folder,
     name: &str,
     mut rows: impl Iterator<Item = R>,
     columns: impl Fn(&[R]) -> (Vec<Heading>, Vec<Values>),
