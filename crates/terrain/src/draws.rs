@@ -1,6 +1,8 @@
 //! Random numbers of a generated environment: each is keyed by the seed, the attempt, the derivation step, and the name
 //! of what is drawn, never by a place in a list.
 
+use core::cell::Cell;
+
 use crate::expression::Names;
 use crate::{Expression, TerrainError};
 use space::random::{Purpose, child_seed, normal, uniform};
@@ -26,17 +28,43 @@ impl Fnv {
     }
 }
 
-/// The draws of one step of one attempt.
-#[derive(Clone, Copy, Debug)]
-pub struct Draws {
-    key: u64,
-    step: u64,
+/// Numbers that stand for draws, in the order in which they are drawn.
+#[derive(Debug)]
+pub struct Decisions<'a> {
+    numbers: &'a [f64],
+    taken: Cell<usize>,
 }
 
-impl Draws {
+impl<'a> Decisions<'a> {
+    /// Numbers of [0, 1].
+    pub fn new(numbers: &'a [f64]) -> Self {
+        Self { numbers, taken: Cell::new(0) }
+    }
+    /// The next one, below 1; `None` where all are taken.
+    fn next(&self) -> Option<f64> {
+        let number = self.numbers.get(self.taken.get())?;
+        self.taken.set(self.taken.get() + 1);
+        Some(number.clamp(0.0, 1.0 - f64::EPSILON))
+    }
+}
+
+/// The draws of one step of one attempt.
+#[derive(Clone, Copy, Debug)]
+pub struct Draws<'a> {
+    key: u64,
+    step: u64,
+    decided: Option<&'a Decisions<'a>>,
+}
+
+impl<'a> Draws<'a> {
     /// The draws of a step (0: before the first) of an attempt under a seed.
     pub fn new(seed: u64, attempt: u64, step: u64) -> Self {
-        Self { key: child_seed(seed, ATTEMPT, attempt, 0), step }
+        Self { key: child_seed(seed, ATTEMPT, attempt, 0), step, decided: None }
+    }
+    /// The same with numbers in place of the first draws.
+    #[must_use]
+    pub fn decided(self, by: &'a Decisions<'a>) -> Self {
+        Self { decided: Some(by), ..self }
     }
     /// The draws of another step of the same attempt.
     #[must_use]
@@ -45,18 +73,27 @@ impl Draws {
     }
     /// Uniform in [0, 1), for the quantity of this name; `number` tells several of one name apart.
     pub fn uniform(&self, name: &str, number: u32) -> f64 {
+        if let Some(decided) = self.decided.and_then(Decisions::next) {
+            return decided;
+        }
         let mut hash = Fnv::default();
         hash.take(name.as_bytes());
         hash.take(&number.to_le_bytes());
         let folded = (hash.0 ^ (hash.0 >> 32)) as u32;
         uniform(self.key, Purpose::Obstacles, self.step, folded)
     }
-    /// A whole number below `count` (0 where that is 0), each as likely as any other.
+    /// A whole number below `count` (0 where that is 0), each as likely as any other. Of one there is nothing to draw.
     pub fn below(&self, name: &str, count: usize) -> usize {
+        if count <= 1 {
+            return 0;
+        }
         ((self.uniform(name, 0) * count as f64) as usize).min(count.saturating_sub(1))
     }
-    /// An index by weight; `None` where no weight is above 0.
+    /// An index by weight; `None` where no weight is above 0. Of one there is nothing to draw.
     pub fn weighted(&self, name: &str, weights: &[f64]) -> Option<usize> {
+        if let [only] = weights {
+            return (*only > 0.0).then_some(0);
+        }
         let total: f64 = weights.iter().sum();
         let mut left = self.uniform(name, 0) * total;
         let mut last = None;

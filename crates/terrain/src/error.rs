@@ -51,6 +51,8 @@ pub enum TerrainError {
     Unfinished,
     /// Stages that do not fit together; the text says which and why.
     Stages(String),
+    /// A construct that a filter does not let through, and why.
+    Infeasible(String),
 }
 
 impl TerrainError {
@@ -74,6 +76,7 @@ impl fmt::Display for TerrainError {
             Self::Range { name, expected, found } => write!(out, "{name}: expected {expected}, found {found}"),
             Self::Units { first, second } => write!(out, "{first} cannot be combined with {second}"),
             Self::Grammar(text) | Self::Stages(text) => out.write_str(text),
+            Self::Infeasible(why) => write!(out, "not feasible: {why}"),
             Self::Text { line, problem } => write!(out, "line {line}: {problem}"),
             Self::TooMany { count, limit } => write!(out, "{count} candidates are more than the {limit} allowed"),
             Self::Unfinished => out.write_str("the derivation reached its limit of steps before it was done"),

@@ -164,6 +164,11 @@ pub trait Schema: Send + Sync {
     /// A workspace without the anchors it needs.
     fn build(&self, values: &[f64], workspace: &Workspace, draws: &Draws) -> Result<Construct, TerrainError>;
 
+    /// Where a construct comes from; `plain` says what is the same for all schemas.
+    fn provenance(&self, _: &Construct, plain: Provenance) -> Provenance {
+        plain
+    }
+
     /// The construct of these values in a workspace, with its provenance.
     ///
     /// # Errors
@@ -186,7 +191,7 @@ pub trait Schema: Send + Sync {
         let mut construct = self.build(values, workspace, &Draws::new(seed, attempt, 0))?;
         let parameters =
             card.parameters.iter().zip(values).map(|(parameter, &value)| (parameter.name.to_string(), value));
-        construct.provenance = Provenance {
+        let plain = Provenance {
             schema: card.id.to_owned(),
             version: card.version,
             parameters: parameters.collect(),
@@ -194,6 +199,7 @@ pub trait Schema: Send + Sync {
             attempt,
             derivation: None,
         };
+        construct.provenance = self.provenance(&construct, plain);
         Ok(construct)
     }
 }

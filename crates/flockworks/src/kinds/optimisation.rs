@@ -33,11 +33,10 @@ impl Kind for Optimisation {
     }
     fn check(&self, input: &Input) -> Result<String, Fault> {
         let plan = read(input, false)?;
-        let names: Vec<&str> = plan.axes.iter().map(|axis| axis.name.as_str()).collect();
         Ok(format!(
             "{} over {} by {}: {} runs of {} evaluations each",
             plan.schema.card().id,
-            names.join(", "),
+            plan.over(&|axis| axis.name.clone()),
             plan.methods().join(", "),
             plan.runs,
             plan.evaluations

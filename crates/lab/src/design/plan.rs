@@ -4,6 +4,7 @@ use super::form::Design;
 use super::results::Results;
 use crate::environment::behaviour::Around;
 use crate::environment::candidates::Source;
+use crate::environment::filter;
 use crate::environment::trial::{self, Population};
 use crate::environment::workspace::Resolved;
 use crate::environment::{claims, trial::populations};
@@ -186,13 +187,7 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
     }
     let units = workspace.workspace.units;
     let source = form.candidates.source(&texts, units, &tree, &mut files.desk)?;
-    let mut filters = Vec::new();
-    for (k, filter) in form.filter.iter().enumerate() {
-        match filter.plain() {
-            Ok(filter) => filters.push(filter),
-            Err(what) => files.desk.problem(&tree.place(&format!("filter.{k}")), what, "a filter", ""),
-        }
-    }
+    let filter = filter::all_of(&form.filter, &tree, &mut files.desk);
     let start = Span { source: tree.span.source, bytes: 0..0 };
     let base = files.scenario(form.scenario.as_ref(), &form.title, &form.set.0, &start, "design")?;
     let populations = populations(&base, &form.population, units, files)?;
@@ -228,7 +223,7 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         form,
         workspace,
         source,
-        filter: Combined::All(filters),
+        filter,
         populations,
         sequential,
         attempts,

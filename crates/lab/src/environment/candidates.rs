@@ -198,8 +198,8 @@ impl Candidates {
     /// The names of files that it needs, each with its path.
     pub fn files(&self) -> Vec<(String, String)> {
         match self {
-            Self::Grammar(GrammarSource::Named(name)) if name.ends_with(".toml") => {
-                vec![("candidates.grammar".into(), name.clone())]
+            Self::Grammar(grammar) => {
+                grammar.file().map(|name| ("candidates.grammar".into(), name.to_owned())).into_iter().collect()
             }
             Self::Files(names) => {
                 names.iter().enumerate().map(|(k, name)| (format!("candidates.files.{k}"), name.clone())).collect()
@@ -209,28 +209,11 @@ impl Candidates {
     }
     /// The source; `texts` are those of [`Candidates::files`]. What is wrong goes to the desk.
     pub fn source(&self, texts: &[String], units: terrain::Units, tree: &Node, desk: &mut Desk) -> Option<Source> {
-        let mut wrong = |path: &str, what: String, expected: &str| {
-            desk.problem(&tree.place(path), what, expected, "");
-        };
         match self {
-            Self::Grammar(GrammarSource::Named(name)) => match texts.first() {
-                Some(text) => match super::grammar::read(name, text) {
-                    Ok(grammar) => Some(Source::Grammar(Box::new(grammar))),
-                    Err(problems) => {
-                        let what = format!("`{name}` is no grammar:\n{}", problems.show(false));
-                        wrong("candidates.grammar", what, "a grammar file");
-                        None
-                    }
-                },
-                None => terrain::grammars::find(name).ok().map(|grammar| Source::Grammar(Box::new(grammar))),
-            },
-            Self::Grammar(GrammarSource::Written(form)) => match form.plain() {
-                Ok(grammar) => Some(Source::Grammar(Box::new(grammar))),
-                Err((path, what)) => {
-                    wrong(&format!("candidates.grammar.{path}"), what, "");
-                    None
-                }
-            },
+            Self::Grammar(grammar) => {
+                let grammar = grammar.found(texts.first().map(String::as_str), "candidates.grammar", tree, desk)?;
+                Some(Source::Grammar(Box::new(grammar)))
+            }
             Self::Schema(form) => {
                 let schema = schema_of(&form.id, "candidates.schema.id", tree, desk)?;
                 let values = values_of(&*schema, &form.at, "candidates.schema.at", tree, desk)?;
@@ -256,7 +239,9 @@ impl Candidates {
                             construct.provenance.schema.clone_from(name);
                             construct
                         })),
-                        Err(what) => wrong(&format!("candidates.files.{k}"), what, "a drawing"),
+                        Err(what) => {
+                            desk.problem(&tree.place(&format!("candidates.files.{k}")), what, "a drawing", "");
+                        }
                     }
                 }
                 (list.len() == names.len()).then_some(Source::Given(list))

@@ -98,6 +98,18 @@ impl Form for FilterForm {
     }
 }
 
+/// All of some filters; what is wrong with them goes to the desk.
+pub fn all_of(forms: &[FilterForm], tree: &Node, desk: &mut Desk) -> Combined {
+    let mut filters = Vec::new();
+    for (k, form) in forms.iter().enumerate() {
+        match form.plain() {
+            Ok(filter) => filters.push(filter),
+            Err(what) => desk.problem(&tree.place(&format!("filter.{k}")), what, "a filter", ""),
+        }
+    }
+    Combined::All(filters)
+}
+
 impl FilterForm {
     /// The filter.
     ///

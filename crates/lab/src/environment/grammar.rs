@@ -354,6 +354,37 @@ pub enum GrammarSource {
     Written(Box<GrammarForm>),
 }
 
+impl GrammarSource {
+    /// The file that it is in, where it is in one.
+    pub fn file(&self) -> Option<&str> {
+        match self {
+            Self::Named(name) if name.ends_with(".toml") => Some(name),
+            _ => None,
+        }
+    }
+    /// The grammar, checked; `text` is that of [`Self::file`], `path` where the grammar is asked for. What is wrong goes to the desk.
+    pub fn found(&self, text: Option<&str>, path: &str, tree: &Node, desk: &mut Desk) -> Option<plain::Grammar> {
+        match (self, text) {
+            (Self::Named(name), Some(text)) => match read(name, text) {
+                Ok(grammar) => Some(grammar),
+                Err(problems) => {
+                    let what = format!("`{name}` is no grammar:\n{}", problems.show(false));
+                    desk.problem(&tree.place(path), what, "a grammar file", "");
+                    None
+                }
+            },
+            (Self::Named(name), None) => terrain::grammars::find(name).ok(),
+            (Self::Written(form), _) => match form.plain() {
+                Ok(grammar) => Some(grammar),
+                Err((below, what)) => {
+                    desk.problem(&tree.place(&format!("{path}.{below}")), what, "", "");
+                    None
+                }
+            },
+        }
+    }
+}
+
 impl Form for GrammarSource {
     fn read(node: &Node, rule: &Asked<'_>, desk: &mut Desk) -> Option<Self> {
         match &node.tree {

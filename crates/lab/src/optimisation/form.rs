@@ -3,6 +3,8 @@
 use crate::design::form::ByWord;
 use crate::environment::behaviour::BehaviourForm;
 use crate::environment::candidates::SchemaForm;
+use crate::environment::filter::FilterForm;
+use crate::environment::grammar::GrammarSource;
 use crate::environment::workspace::Workspace;
 use crate::evolution::form::{CmaEs, Genetic};
 use crate::file::{Anything, Named};
@@ -128,9 +130,15 @@ form! {
         /// What is there already.
         workspace: Workspace = [Workspace::default()], "", Any;
         /// The schema, with values of parameters that are not searched over.
-        schema: SchemaForm = need, "", Any;
-        /// What is searched over, by names of parameters.
-        axis: Named<AxisForm> = need, "", Any;
+        schema: Option<SchemaForm> = none, "", Any;
+        /// In place of a schema a grammar, whose derivations are searched over: numbers of [0, 1] stand for what it draws.
+        grammar: Option<GrammarSource> = none, "", Any;
+        /// How many draws of the grammar are searched over, from the first on; those after them are the same for all.
+        decisions: usize = [24usize], "1", Within(1.0, 1000.0);
+        /// What is searched over, by names of parameters; of a grammar all decisions where none is named.
+        axis: Named<AxisForm> = [Named::default()], "", Any;
+        /// What a construct must be like to be tried at all: all of these hold. One that is not counts as an evaluation.
+        filter: Vec<FilterForm> = [Vec::new()], "", Any;
         /// The scenario: the name of a file beside this one, or the scenario itself as a table.
         scenario: Option<Anything> = none, "", Any;
         /// Values put over the scenario's. Tables are joined key by key; a path in quotes puts its value as it is.

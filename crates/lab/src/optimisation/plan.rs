@@ -1,12 +1,13 @@
 //! From an optimisation file to a schema, a box, methods and a behaviour.
 
-use super::form::{Optimisation, Search};
+use super::form::{AxisForm, Optimisation, Search};
 use super::results::Results;
 use super::searcher::Searcher;
 use crate::design::plan::{opened, workspace};
 use crate::environment::behaviour::Around;
 use crate::environment::candidates::{axis_of, schema_of, values_of};
 use crate::environment::claims;
+use crate::environment::filter;
 use crate::environment::trial::{self, Population};
 use crate::environment::workspace::Resolved;
 use crate::file::{Form, Node, Problems, Rule, Sources, Span};
@@ -17,7 +18,12 @@ use search::{Axis, Domain};
 use serde_json::{Value as Json, json};
 use space::random::child_seed;
 use space::spelling::nearest;
+use terrain::filters::Combined;
+use terrain::grammar::Decided;
 use terrain::{Construct, Schema, TerrainError};
+
+/// More parameters than these are counted, not named.
+const MOST_NAMED: usize = 6;
 
 /// Kinds of child seeds, beside those of designs and maps: a run, what a construct draws.
 const RUN: u32 = 9;
@@ -47,8 +53,12 @@ pub struct Plan {
     pub form: Optimisation,
     /// What is there already.
     pub workspace: Resolved,
-    /// The schema.
+    /// What builds constructs.
     pub schema: Box<dyn Schema>,
+    /// What that is, in words.
+    pub builder: String,
+    /// What its constructs must be like.
+    pub filter: Combined,
     /// Values of its parameters; those of the axes are replaced.
     pub values: Vec<f64>,
     /// What is searched over.
@@ -74,6 +84,13 @@ impl Plan {
     pub fn methods(&self) -> Vec<&str> {
         self.form.method.0.iter().map(|(name, _)| name.as_str()).collect()
     }
+    /// What is searched over: each parameter in these words, or how many there are where they are too many to name.
+    pub fn over(&self, word: &dyn Fn(&SearchAxis) -> String) -> String {
+        match self.axes.as_slice() {
+            axes if axes.len() > MOST_NAMED => format!("{} parameters", axes.len()),
+            axes => axes.iter().map(word).collect::<Vec<_>>().join(", "),
+        }
+    }
     /// The seed of a run of a method.
     pub fn seed_of(&self, method: usize, run: usize) -> u64 {
         child_seed(self.form.seed, RUN, run as u64, method as u32)
@@ -89,14 +106,16 @@ impl Plan {
     /// The construct at a point: what a schema draws follows from the point as well.
     ///
     /// # Errors
-    /// A point outside the schema's domain.
+    /// A point outside the schema's domain; a construct that a filter does not let through.
     pub fn construct(&self, point: &[f64]) -> Result<Construct, TerrainError> {
         let mut hash = 0xcbf2_9ce4_8422_2325u64;
         for byte in point.iter().flat_map(|value| value.to_bits().to_le_bytes()) {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
         let seed = child_seed(self.form.seed, DRAWN, hash, 0);
-        self.schema.construct(&self.values_at(point), &self.workspace.workspace, seed, 0)
+        let construct = self.schema.construct(&self.values_at(point), &self.workspace.workspace, seed, 0)?;
+        let verdict = self.filter.check(&construct, &self.workspace.workspace);
+        if verdict.pass { Ok(construct) } else { Err(TerrainError::Infeasible(verdict.reason.to_owned())) }
     }
     /// The behaviour where a construct stands in the workspace.
     ///
@@ -134,8 +153,8 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
     let form = Optimisation::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut files.desk)
         .filter(|_| files.desk.problems.is_empty())?;
     let workspace = workspace(files, &form.workspace, name, &tree)?;
-    let schema = schema_of(&form.schema.id, "schema.id", &tree, &mut files.desk)?;
-    let values = values_of(&*schema, &form.schema.at, "schema.at", &tree, &mut files.desk)?;
+    let (builder, schema, values) = built(files, &form, name, &tree)?;
+    let filter = filter::all_of(&form.filter, &tree, &mut files.desk);
     let axes = axes(files, &form, &*schema, &tree)?;
     let start = Span { source: tree.span.source, bytes: 0..0 };
     let base = files.scenario(form.scenario.as_ref(), &form.title, &form.set.0, &start, "optimisation")?;
@@ -158,6 +177,8 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         form,
         workspace,
         schema,
+        builder,
+        filter,
         values,
         axes,
         domain,
@@ -174,9 +195,58 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
     Some(plan)
 }
 
+/// What constructs are made by, in words and as it is, with the values of its parameters.
+fn built(
+    files: &mut Files<'_>,
+    form: &Optimisation,
+    name: &str,
+    tree: &Node,
+) -> Option<(String, Box<dyn Schema>, Vec<f64>)> {
+    let grammar = match (&form.schema, &form.grammar) {
+        (Some(schema), None) => {
+            let of = schema_of(&schema.id, "schema.id", tree, &mut files.desk)?;
+            let values = values_of(&*of, &schema.at, "schema.at", tree, &mut files.desk)?;
+            return Some((format!("the schema `{}`", schema.id), of, values));
+        }
+        (None, Some(grammar)) => grammar,
+        (None, None) => {
+            let what = "it is not said what builds constructs";
+            files.desk.problem(&tree.span, what, "`schema` or `grammar`", "");
+            return None;
+        }
+        (Some(_), Some(_)) => {
+            files.desk.problem(&tree.place("grammar"), "constructs are built by a schema or by a grammar", "one", "");
+            return None;
+        }
+    };
+    let text = match grammar.file() {
+        Some(file) => {
+            let (path, text) = files.loaded(name, file, &tree.place("grammar"))?;
+            files.sources.add(&path, &text);
+            Some(text)
+        }
+        None => None,
+    };
+    let grammar = grammar.found(text.as_deref(), "grammar", tree, &mut files.desk)?;
+    let builder = format!("derivations of the grammar `{}`, by what they decide", grammar.name);
+    let schema: Box<dyn Schema> = Box::new(Decided { grammar, decisions: form.decisions });
+    let values = schema.card().parameters.iter().map(|parameter| parameter.default).collect();
+    Some((builder, schema, values))
+}
+
 fn axes(files: &mut Files<'_>, form: &Optimisation, schema: &dyn Schema, tree: &Node) -> Option<Vec<SearchAxis>> {
+    let all: Vec<(String, AxisForm)> = match form.grammar {
+        Some(_) if form.axis.0.is_empty() => {
+            let parameters = schema.card().parameters;
+            parameters
+                .iter()
+                .map(|parameter| (parameter.name.to_string(), AxisForm { low: None, high: None }))
+                .collect()
+        }
+        _ => form.axis.0.clone(),
+    };
     let mut axes = Vec::new();
-    for (name, written) in &form.axis.0 {
+    for (name, written) in &all {
         let at = tree.place(&format!("axis.{name}"));
         let found = axis_of(schema, name, (written.low, written.high), &at, &mut files.desk);
         axes.extend(found.map(|(place, axis, unit)| SearchAxis {
@@ -190,7 +260,7 @@ fn axes(files: &mut Files<'_>, form: &Optimisation, schema: &dyn Schema, tree: &
     if axes.is_empty() && files.desk.problems.is_empty() {
         files.desk.problem(&tree.place("axis"), "there is nothing to search over", "at least one [axis.NAME]", "");
     }
-    (axes.len() == form.axis.0.len() && !axes.is_empty()).then_some(axes)
+    (axes.len() == all.len() && !axes.is_empty()).then_some(axes)
 }
 
 /// What is wrong with methods that their forms do not tell.

@@ -1,7 +1,7 @@
 //! The page of an optimisation: how good the best came to be, by which method, what it looks like, what was stated.
 
 use super::form::{Objective, Search};
-use super::plan::Plan;
+use super::plan::{Plan, SearchAxis};
 use super::results::{NAMES, Results, Run, mean};
 use super::trials::{self, Found, Purpose};
 use crate::design::report::{add_ways, put};
@@ -144,11 +144,13 @@ fn methods(results: &Results<'_>) -> Listing {
 }
 
 fn described(plan: &Plan) -> Vec<String> {
-    let axes: Vec<String> = plan
-        .axes
-        .iter()
-        .map(|axis| format!("{} from {} to {}", axis.name, short(axis.axis.low), short(axis.axis.high)))
-        .collect();
+    let ends = |axis: &SearchAxis| format!("{} from {} to {}", axis.name, short(axis.axis.low), short(axis.axis.high));
+    let over = plan.over(&ends);
+    let filter = if plan.form.filter.is_empty() {
+        ""
+    } else {
+        " What a filter does not let through is not tried, and counts as an evaluation."
+    };
     let models = plan.population.scenario.group.0.iter();
     let models: Vec<String> = models.map(|(_, own)| format!("{} of {}", own.count, own.model.id)).collect();
     let trials = match &plan.form.robust {
@@ -168,10 +170,9 @@ fn described(plan: &Plan) -> Vec<String> {
     };
     vec![
         format!(
-            "The schema `{}` in the workspace `{}`, over {}. The group: {}, {} steps.",
-            plan.schema.card().id,
+            "Searched: {} in the workspace `{}`, over {over}.{filter} The group: {}, {} steps.",
+            plan.builder,
             plan.workspace.workspace.name,
-            axes.join(", "),
             models.join(" and "),
             plan.population.steps
         ),

@@ -9,7 +9,7 @@ use core::fmt::Write;
 const WIDTH: f64 = 400.0;
 const LEFT: f64 = 52.0;
 const TOP: f64 = 10.0;
-const PLOT: (f64, f64) = (338.0, 250.0);
+pub(super) const PLOT: (f64, f64) = (338.0, 250.0);
 const HEIGHT: f64 = 306.0;
 /// Marks along an axis.
 const TICKS: usize = 5;

@@ -1,13 +1,18 @@
 //! The page of an analysis of tracks.
 
+use super::map;
 use super::of_run::{DOWNLOADED, DRAWN, REPLAYED, REPLAYED_FRAMES, ordinal, paragraphs, short};
-use super::{Axis, Border, Fact, Figure, Line, Lines, Moment, Page, Replay, Scenes, Seen, Stage, Table as Download};
+use super::{
+    Axis, Border, Fact, Figure, Line, Lines, Map, MapCell, MapPanel, Moment, Page, Replay, Scenes, Seen, Stage,
+    Table as Download,
+};
 use crate::tracks::analysis::{Analysed, Average, average};
 use crate::tracks::folder::Request;
 use crate::tracks::tables;
 use crate::with_tracks;
 use measure::{Counted, Ground, Listing, MetricCard, TrackCard, Tracks};
 use space::{Edge, Vector};
+use std::collections::BTreeMap;
 
 /// Points of a line over time; more frames are averaged.
 const POINTS: usize = 1200;
@@ -33,6 +38,7 @@ pub fn page(request: &Request<'_>, all: &[Analysed]) -> Page {
         figures.extend(distribution(card, &one_unit));
     }
     figures.extend(over_time_charts(all));
+    figures.extend(cell_maps(all));
     let mut csv = Vec::new();
     let values: usize = all.iter().map(|one| one.measured.positions.len() * (one.cards.len() + 7)).sum();
     let mut downloads = vec![Download {
@@ -326,6 +332,105 @@ fn over_time_charts(all: &[Analysed]) -> Vec<Figure> {
         }
     }
     figures
+}
+
+/// The metrics over time whose tables are cells in which members of a group were found, as maps seen from above: the darker a cell,
+/// the more often.
+fn cell_maps(all: &[Analysed]) -> Vec<Figure> {
+    let mut figures = Vec::new();
+    for card in measure::over_time::LIST {
+        let at = |name: &str| card.fields.iter().position(|field| field.name == name);
+        let (Some(group), Some(share)) = (at("group"), at("share")) else { continue };
+        // the first two coordinates follow the group
+        let (across, up) = (card.fields[group + 1], card.fields[group + 2]);
+        let mut by_unit: Vec<(String, Vec<&Analysed>)> = Vec::new();
+        for one in all.iter().filter(|one| listing(one, card).is_some_and(|listing| listing.len() > 0)) {
+            let unit = tables::unit_of(one, across.unit);
+            match by_unit.iter_mut().find(|(known, _)| *known == unit) {
+                Some((_, list)) => list.push(one),
+                None => by_unit.push((unit, vec![one])),
+            }
+        }
+        for (unit, of) in by_unit {
+            let mut panels = Vec::new();
+            for one in of {
+                let Some(listing) = listing(one, card) else { continue };
+                let mut cells: BTreeMap<u32, BTreeMap<[u64; 2], ([f64; 2], f64)>> = BTreeMap::new();
+                for row in 0..listing.len() {
+                    let value = |k: usize| listing.columns[k][row];
+                    let middle = [value(group + 1), value(group + 2)];
+                    // one behind the other, seen from above
+                    let of_group = cells.entry(value(group) as u32).or_default();
+                    of_group.entry(middle.map(f64::to_bits)).or_insert((middle, 0.0)).1 += value(share);
+                }
+                for (number, cells) in cells {
+                    let name = tables::label(one, &card.fields[group], f64::from(number));
+                    let of = if name.is_empty() { String::new() } else { format!(": {name}") };
+                    let caption = format!("{}{of}", one.recording.name);
+                    panels.push((caption, cells.into_values().collect::<Vec<_>>()));
+                }
+            }
+            figures.extend(cell_map(card, (across.name, up.name), &unit, panels));
+        }
+    }
+    figures
+}
+
+/// Maps of cells by their middles and the share found in each.
+fn cell_map(
+    card: &TrackCard,
+    (across, up): (&str, &str),
+    unit: &str,
+    panels: Vec<(String, Vec<([f64; 2], f64)>)>,
+) -> Option<Figure> {
+    let middles = || panels.iter().flat_map(|(_, cells)| cells.iter().map(|(middle, _)| *middle));
+    // the side of cells: the least distance between the middles of two
+    let side = (0..2).filter_map(|a| {
+        let mut along: Vec<f64> = middles().map(|middle| middle[a]).collect();
+        along.sort_by(f64::total_cmp);
+        along.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 1e-9).reduce(f64::min)
+    });
+    let side = side.reduce(f64::min).unwrap_or(1.0);
+    let ends = |a: usize| {
+        let span = middles().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), middle| {
+            (low.min(middle[a] - side / 2.0), high.max(middle[a] + side / 2.0))
+        });
+        (span.0.is_finite() && span.1.is_finite()).then_some(span)
+    };
+    let (x, y) = (ends(0)?, ends(1)?);
+    // equal lengths on both axes
+    let scale = ((x.1 - x.0) / map::PLOT.0).max((y.1 - y.0) / map::PLOT.1);
+    let about = |(low, high): (f64, f64), room: f64| {
+        let (middle, half) = ((low + high) / 2.0, scale * room / 2.0);
+        Some((middle - half, middle + half))
+    };
+    let axis = |name: &str, range| Axis { label: name.to_owned(), unit: unit.to_owned(), range };
+    let panel = |(caption, cells): (String, Vec<([f64; 2], f64)>)| {
+        let most = cells.iter().map(|(_, share)| *share).fold(0.0, f64::max);
+        let cell = |([x, y], share): ([f64; 2], f64)| MapCell {
+            low: [x - side / 2.0, y - side / 2.0],
+            high: [x + side / 2.0, y + side / 2.0],
+            rate: share / most,
+            valid: false,
+        };
+        MapPanel {
+            caption: format!("{caption}; in the darkest cell {} % of all that were found", short(100.0 * most)),
+            cells: cells.into_iter().map(cell).collect(),
+        }
+    };
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    Some(Figure::Map(Map {
+        title: card.title.into(),
+        about: format!(
+            "The darker a cell, the more often members were found in it. {}; {}.",
+            words(card.definition),
+            words(card.variant)
+        ),
+        x: axis(across, about(x, map::PLOT.0)),
+        y: axis(up, about(y, map::PLOT.1)),
+        areas: true,
+        panels: panels.into_iter().map(panel).collect(),
+    }))
 }
 
 fn listing<'a>(one: &'a Analysed, card: &TrackCard) -> Option<&'a Listing> {

@@ -121,8 +121,12 @@ impl Grammar {
     /// # Errors
     /// An expression without a finite value.
     pub fn derive(&self, seed: u64, attempt: u64) -> Result<Derivation, TerrainError> {
-        let draws = Draws::new(seed, attempt, 0);
-        let mut derivation = self.start(seed, attempt, self.draw(&self.variables, &draws, &[], None, &[])?)?;
+        self.derived(seed, attempt, &Draws::new(seed, attempt, 0))
+    }
+
+    /// The derivation that these draws give.
+    pub(super) fn derived(&self, seed: u64, attempt: u64, draws: &Draws<'_>) -> Result<Derivation, TerrainError> {
+        let mut derivation = self.start(seed, attempt, self.draw(&self.variables, draws, &[], None, &[])?)?;
         let wanted = self.steps.get(draws.below("steps", self.steps.len())).copied();
         let limit = wanted.unwrap_or(self.max_steps).min(self.max_steps);
         while (derivation.steps.len() as u32) < limit {

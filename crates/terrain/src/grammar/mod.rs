@@ -8,9 +8,11 @@
 //! matches, after the chosen number of applications, or at the limit of steps.
 
 mod check;
+mod decided;
 mod derive;
 mod matching;
 
+pub use decided::Decided;
 pub use derive::{Derivation, Instance, Step};
 
 use crate::draws::Distribution;
