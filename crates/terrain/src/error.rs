@@ -49,10 +49,12 @@ pub enum TerrainError {
     },
     /// A derivation that ended without an environment: it reached its limit, and the grammar rejects such.
     Unfinished,
-    /// Stages that do not fit together; the text says which and why.
+    /// Stages that cannot be put together, whatever they are built of; the text says which and why.
     Stages(String),
     /// A construct that a filter does not let through, and why.
     Infeasible(String),
+    /// What was built of stages does not fit together; the text says which and why. Other constructs of theirs may.
+    Misfit(String),
 }
 
 impl TerrainError {
@@ -75,8 +77,8 @@ impl fmt::Display for TerrainError {
             }
             Self::Range { name, expected, found } => write!(out, "{name}: expected {expected}, found {found}"),
             Self::Units { first, second } => write!(out, "{first} cannot be combined with {second}"),
-            Self::Grammar(text) | Self::Stages(text) => out.write_str(text),
             Self::Infeasible(why) => write!(out, "not feasible: {why}"),
+            Self::Grammar(text) | Self::Stages(text) | Self::Misfit(text) => out.write_str(text),
             Self::Text { line, problem } => write!(out, "line {line}: {problem}"),
             Self::TooMany { count, limit } => write!(out, "{count} candidates are more than the {limit} allowed"),
             Self::Unfinished => out.write_str("the derivation reached its limit of steps before it was done"),

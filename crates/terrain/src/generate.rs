@@ -228,6 +228,11 @@ impl Generation<'_> {
                     counts.reason("the derivation reached its limit");
                     continue;
                 }
+                Err(TerrainError::Misfit(what)) => {
+                    counts.generated += 1;
+                    counts.reason(&what);
+                    continue;
+                }
                 Err(other) => return Err(other),
             };
             counts.generated += 1;

@@ -10,7 +10,7 @@ use lab::design::export::{self, ENVIRONMENTS};
 use lab::design::form::Design as Form;
 use lab::design::results::NAMES;
 use lab::design::robustness::ROBUSTNESS;
-use lab::design::tables::{CANDIDATES, RATES, RESULTS, TRIALS};
+use lab::design::tables::{CANDIDATES, RATES, RESULTS, STAGES, TRIALS};
 use lab::design::{self, Plan};
 use lab::environment::signal::SIGNALS;
 use lab::searched::{Designed, Searched};
@@ -83,7 +83,7 @@ impl Kind for Design {
             "{}: {most} candidates at most, {} groups, {} behaviours, {} trials",
             plan.source.name(),
             plan.populations.len(),
-            plan.form.behaviour.0.len(),
+            plan.behaviour_names().len(),
             plan.form.trials
         ))
     }
@@ -122,8 +122,12 @@ impl Kind for Design {
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         let mut tables = vec![RATES, CANDIDATES, RESULTS, TRIALS];
-        if execute::of_folder(folder)?.form.robustness.is_some() {
+        let plan = execute::of_folder(folder)?;
+        if plan.form.robustness.is_some() {
             tables.push(ROBUSTNESS);
+        }
+        if plan.stages() > 0 {
+            tables.push(STAGES);
         }
         Ok(tables)
     }

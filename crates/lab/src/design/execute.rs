@@ -7,13 +7,13 @@ use super::plan::Plan;
 use super::results::{Results, Trials};
 use super::robustness::{self, Copies};
 use super::{export, report, tables};
-use crate::environment::trial::{self, Outcome, Population, Tried};
+use crate::environment::trial::{self, Outcome, Population, Told, Tried, Wanted};
 use crate::environment::work::{Watch, packed, spread, unpacked};
+use crate::scenario::Scenario;
 use crate::store::StoreError;
 use crate::store::folder::Folder;
 use crate::store::job::{File, Job, Kind};
 use crate::store::log::{Log, Record};
-use measure::behaviours::Behaviour;
 use measure::statistics::Decision;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -201,13 +201,14 @@ fn known(
     Ok((there, copies))
 }
 
-/// A record: the attempt, then for each group the numbers of trials with and without the construct, then trial by trial the
-/// steps, and fitness and value of each behaviour.
+/// A record: the attempt, then for each group the numbers of trials with the construct, without it, and of each stage by itself;
+/// then trial by trial in this order the steps, and fitness and value of each behaviour (of a stage by itself, of that alone).
 fn words(attempt: u64, trials: &[Trials]) -> Vec<u64> {
     let mut words = vec![attempt];
     for trials in trials {
-        words.extend([trials.built.len() as u64, trials.control.len() as u64]);
-        for tried in trials.built.iter().chain(&trials.control) {
+        let all = || [&trials.built, &trials.control].into_iter().chain(&trials.alone);
+        words.extend(all().map(|list| list.len() as u64));
+        for tried in all().flatten() {
             words.push(tried.steps);
             words.extend(tried.outcomes.iter().flat_map(|one| [one.fitness.to_bits(), one.value.to_bits()]));
         }
@@ -216,13 +217,13 @@ fn words(attempt: u64, trials: &[Trials]) -> Vec<u64> {
 }
 
 fn trials_of(plan: &Plan, words: &[u64]) -> Option<(u64, Vec<Trials>)> {
-    let behaviours = plan.form.behaviour.0.len();
+    let behaviours = plan.behaviour_names().len();
     let mut words = words.iter().copied();
     let attempt = words.next()?;
     let mut all = Vec::with_capacity(plan.populations.len());
     for _ in &plan.populations {
-        let (built, control) = (words.next()?, words.next()?);
-        let mut next = |count: u64| -> Option<Vec<Tried>> {
+        let counts: Vec<u64> = (0..2 + plan.stages()).map(|_| words.next()).collect::<Option<_>>()?;
+        let mut next = |count: u64, behaviours: usize| -> Option<Vec<Tried>> {
             let one = |_| {
                 let steps = words.next()?;
                 let mut number = || words.next().map(f64::from_bits);
@@ -231,7 +232,9 @@ fn trials_of(plan: &Plan, words: &[u64]) -> Option<(u64, Vec<Trials>)> {
             };
             (0..count).map(one).collect()
         };
-        all.push(Trials { built: next(built)?, control: next(control)? });
+        let (built, control) = (next(counts[0], behaviours)?, next(counts[1], behaviours)?);
+        let alone = counts[2..].iter().map(|count| next(*count, 1)).collect::<Option<_>>()?;
+        all.push(Trials { built, control, alone });
     }
     words.next().is_none().then_some((attempt, all))
 }
@@ -239,7 +242,8 @@ fn trials_of(plan: &Plan, words: &[u64]) -> Option<(u64, Vec<Trials>)> {
 /// Updates of agents in the trials of a candidate.
 fn updates(plan: &Plan, trials: &[Trials]) -> u64 {
     let of = |(population, trials): (&Population, &Trials)| {
-        let steps: u64 = trials.built.iter().chain(&trials.control).map(|tried| tried.steps).sum();
+        let all = trials.built.iter().chain(&trials.control).chain(trials.alone.iter().flatten());
+        let steps: u64 = all.map(|tried| tried.steps).sum();
         population.members() as u64 * steps
     };
     plan.populations.iter().zip(trials).map(of).sum()
@@ -259,7 +263,7 @@ fn candidate(
             let geometry = plan.workspace.workspace.geometry.iter();
             let scenario = population.among(geometry.chain(pieces.iter().flat_map(|piece| &piece.geometry)));
             plan.behaviours(population, construct, built)
-                .map(|behaviours| (scenario, behaviours))
+                .map(|wanted| (scenario, wanted))
                 .map_err(|wrong| format!("candidate {attempt}, {}: {}", wrong.path, wrong.what))
         };
         let with = arm(true)?;
@@ -267,16 +271,8 @@ fn candidate(
         let mut trials = Trials::default();
         for trial in 1..=plan.form.trials {
             let seed = plan.seed_of(attempt, trial);
-            let run = |(scenario, behaviours): &(crate::scenario::Scenario, Vec<Behaviour>)| {
-                match trial::run(scenario, population, behaviours, seed, stop, &mut |_| ()) {
-                    // impossible with this seed: no room for the group, for one
-                    Err(_) => {
-                        let nothing = Outcome { fitness: f64::NAN, value: f64::NAN };
-                        Some(Tried { steps: 0, outcomes: vec![nothing; behaviours.len()] })
-                    }
-                    Ok(tried) => tried,
-                }
-            };
+            let run =
+                |(scenario, wanted): &(Scenario, Wanted)| Some(tried(scenario, population, wanted, seed, stop)?.tried);
             let Some(tried) = run(&with) else { return Ok(None) };
             trials.built.push(tried);
             if let Some(without) = &without {
@@ -287,15 +283,68 @@ fn candidate(
                 break;
             }
         }
+        let stages = plan.alone(population, construct);
+        let stages = stages.map_err(|wrong| format!("candidate {attempt}, {}: {}", wrong.path, wrong.what))?;
+        let Some(alone) = alone(plan, attempt, population, &stages, stop) else { return Ok(None) };
+        trials.alone = alone;
         all.push(trials);
     }
     Ok(Some(all))
 }
 
+/// A trial; none where it was stopped.
+fn tried(
+    scenario: &Scenario,
+    population: &Population,
+    wanted: &Wanted,
+    seed: u64,
+    stop: &dyn Fn() -> bool,
+) -> Option<Told> {
+    match trial::relayed(scenario, population, wanted, seed, stop, &mut |_| ()) {
+        // impossible with this seed: no room for the group, for one
+        Err(_) => {
+            let nothing = Outcome { fitness: f64::NAN, value: f64::NAN };
+            let stages = wanted.relay.as_ref().map_or(0, |relay| relay.legs.len() + 1);
+            let outcomes = vec![nothing; stages + wanted.behaviours.len()];
+            Some(Told { tried: Tried { steps: 0, outcomes }, handed: Vec::new(), moved: Vec::new() })
+        }
+        Ok(tried) => tried,
+    }
+}
+
+/// The trials of each stage by itself, `[stages]`; none where it was stopped. The first begins as the scenario says. The others begin
+/// with places and velocities of the group where it was handed over in trials of the stage before, taken in turns; where it never was,
+/// they are not tried.
+fn alone(
+    plan: &Plan,
+    attempt: u64,
+    population: &Population,
+    stages: &[(Construct, Wanted)],
+    stop: &dyn Fn() -> bool,
+) -> Option<Vec<Vec<Tried>>> {
+    let mut all = Vec::with_capacity(stages.len());
+    let mut starts = vec![population.clone()];
+    for (stage, (part, wanted)) in stages.iter().enumerate() {
+        let geometry = || plan.workspace.workspace.geometry.iter().chain(part.geometry());
+        let (mut trials, mut handed) = (Vec::new(), Vec::new());
+        for trial in 1..=if starts.is_empty() { 0 } else { plan.form.trials } {
+            let start = &starts[(trial - 1) % starts.len()];
+            let seed = plan.seed_alone(attempt, trial, stage);
+            let mut told = tried(&start.among(geometry()), start, wanted, seed, stop)?;
+            told.tried.outcomes.truncate(1);
+            trials.push(told.tried);
+            handed.extend(told.handed.iter().filter_map(|state| population.from_state(state)));
+        }
+        all.push(trials);
+        starts = handed;
+    }
+    Some(all)
+}
+
 /// Whether the sequential test has decided for every behaviour.
 fn decided(plan: &Plan, trials: &[Tried]) -> bool {
     let Some(test) = &plan.sequential else { return false };
-    (0..plan.form.behaviour.0.len()).all(|behaviour| {
+    (0..plan.behaviour_names().len()).all(|behaviour| {
         let share = super::results::Share::of(trials, behaviour, plan.form.success);
         test.decide(share.successes as u32, share.trials as u32) != Decision::Continue
     })

@@ -2,7 +2,9 @@
 
 use super::plan::Plan;
 use super::results::{Results, Share};
+use crate::environment::doors::Door;
 use crate::environment::trial::{self, Population};
+use crate::scenario::Obstacle;
 use crate::store::StoreError;
 use crate::store::folder::{Folder, whole_file};
 use std::io::Write;
@@ -27,13 +29,27 @@ pub fn environment(plan: &Plan, construct: &Construct) -> Environment {
     Environment { workspace: plan.workspace.workspace.clone(), construct: construct.clone(), schedule: None }
 }
 
-/// The scenario of a trial: run with its seed it is that trial, bit by bit.
+/// The scenario of a trial: run with its seed it is that trial, bit by bit. Doors open and shut in it at the times at which they
+/// did in the trial, which is made once more.
 pub fn scenario(plan: &Plan, population: &Population, construct: &Construct, seed: u64, title: &str) -> String {
-    let geometry = plan.workspace.workspace.geometry.iter().chain(construct.geometry());
-    trial::file(population, geometry, seed, title)
+    let geometry = || plan.workspace.workspace.geometry.iter().chain(construct.geometry());
+    trial::file(population, geometry(), doors(plan, population, construct, seed), seed, title)
 }
 
-/// Writes an environment as SVG, GeoJSON, and a scenario that is a trial in it.
+/// The doors of a trial as obstacles that come and go; nothing where there are none.
+fn doors(plan: &Plan, population: &Population, construct: &Construct, seed: u64) -> Vec<Obstacle> {
+    let wanted = plan.behaviours(population, construct, true).unwrap_or_default();
+    if wanted.doors.is_empty() {
+        return Vec::new();
+    }
+    let scenario = population.among(plan.workspace.workspace.geometry.iter().chain(construct.geometry()));
+    let told = trial::relayed(&scenario, population, &wanted, seed, &|| false, &mut |_| ());
+    let moved = told.ok().flatten().map_or_else(Vec::new, |told| told.moved);
+    let of = |(k, door): (usize, &Door)| door.written(moved.iter().copied().filter(|moved| moved.door == k));
+    wanted.doors.iter().enumerate().flat_map(of).collect()
+}
+
+/// Writes an environment as SVG, GeoJSON, and the scenario of a trial in it.
 ///
 /// # Errors
 /// Where the system refuses.
@@ -41,17 +57,13 @@ pub fn environment_files(
     folder: &Folder,
     stem: &str,
     environment: &Environment,
-    population: &Population,
-    seed: u64,
-    title: &str,
+    trial: &str,
 ) -> Result<(), StoreError> {
     let below = folder.file(ENVIRONMENTS);
     std::fs::create_dir_all(&below).map_err(|error| StoreError::io("make the folder", &below, error))?;
-    for (ending, text) in [
-        ("svg", svg::write(environment)),
-        ("geojson", geojson::write(environment)),
-        ("toml", trial::file(population, environment.geometry(), seed, title)),
-    ] {
+    for (ending, text) in
+        [("svg", svg::write(environment)), ("geojson", geojson::write(environment)), ("toml", trial.to_owned())]
+    {
         let path = below.join(format!("{stem}.{ending}"));
         whole_file(&path, |out| out.write_all(text.as_bytes()).map_err(|error| StoreError::io("write", &path, error)))?;
     }
@@ -86,7 +98,8 @@ pub fn write(folder: &Folder, results: &Results<'_>) -> Result<(), StoreError> {
                     population.name, share.successes, share.trials
                 );
                 let seed = plan.seed_of(attempt, trial);
-                environment_files(folder, &stem, &environment(plan, construct), population, seed, &title)?;
+                let trial = scenario(plan, population, construct, seed, &title);
+                environment_files(folder, &stem, &environment(plan, construct), &trial)?;
             }
         }
     }

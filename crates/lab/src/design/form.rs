@@ -2,6 +2,7 @@
 
 use crate::environment::behaviour::BehaviourForm;
 use crate::environment::candidates::{Candidates, Placing};
+use crate::environment::doors::DoorForm;
 use crate::environment::filter::FilterForm;
 use crate::environment::trial::PopulationForm;
 use crate::environment::workspace::Workspace;
@@ -123,6 +124,8 @@ form! {
         seed: u64 = [0u64], "1", NonNegative;
         /// What is there already.
         workspace: Workspace = [Workspace::default()], "", Any;
+        /// Doors by name: walls of the workspace that open or shut when a condition holds.
+        door: Named<DoorForm> = [Named::default()], "", Any;
         /// Where environments come from.
         candidates: Candidates = need, "", Any;
         /// What becomes of the parts of a construct outside the workspace.
@@ -142,8 +145,8 @@ form! {
         set: Anything = [empty()], "", Any;
         /// Groups that are tried, by names of yours; left out, the scenario's alone.
         population: Named<PopulationForm> = [Named::default()], "", Any;
-        /// What is wanted, by names of yours. All are watched in the same trials.
-        behaviour: Named<BehaviourForm> = need, "", Any;
+        /// What is wanted, by names of yours. All are watched in the same trials. Stages have their own.
+        behaviour: Named<BehaviourForm> = [Named::default()], "", Any;
         /// Trials of each environment; with a sequential test, at most so many.
         trials: usize = [10usize], "1", Within(1.0, 100_000.0);
         /// Stop trying an environment as soon as it is decided (for all behaviours).

@@ -4,25 +4,29 @@ use super::form::Design;
 use super::results::Results;
 use crate::environment::behaviour::Around;
 use crate::environment::candidates::Source;
+use crate::environment::doors::{Door, DoorForm};
 use crate::environment::filter;
-use crate::environment::trial::{self, Population};
+use crate::environment::stages::{Staged, WHOLE};
+use crate::environment::trial::{self, Population, Wanted};
 use crate::environment::workspace::Resolved;
 use crate::environment::{claims, trial::populations};
 use crate::file::tree::parse;
 use crate::file::{Desk, Form, Node, Problems, Rule, Sources, Span};
 use crate::scenario::build;
 use crate::study::plan::{Files, Load};
-use measure::behaviours::Behaviour;
 use measure::statistics::SequentialTest;
 use serde_json::{Value as Json, json};
 use space::random::child_seed;
 use terrain::filters::Combined;
 use terrain::generate::{Counts, Generation};
+use terrain::hierarchy::Composition;
 use terrain::{Construct, Environment};
 
 /// Kinds of child seeds, beside those of searches: a candidate, and a trial of it.
 const CANDIDATE: u32 = 4;
 pub(crate) const TRIAL: u32 = 5;
+/// A trial of a stage by itself.
+const STAGE: u32 = 14;
 /// Candidates looked at for one that behaviours can be checked with.
 const LOOKED_AT: u64 = 1000;
 
@@ -87,11 +91,31 @@ impl Plan {
         let counts = generation.run(|_| false, keep).map_err(|error| error.to_string())?;
         Ok(Survey { counts, feasible })
     }
-    /// Names of the behaviours, in order.
+    /// Names of what is wanted, in order: of stages, these and all together; then the behaviours of the file.
     pub fn behaviour_names(&self) -> Vec<&str> {
-        self.form.behaviour.0.iter().map(|(name, _)| name.as_str()).collect()
+        let mut names = Vec::new();
+        if let Source::Stages(stages) = &self.source {
+            names.extend(stages.names());
+            names.push(WHOLE);
+        }
+        names.extend(self.form.behaviour.0.iter().map(|(name, _)| name.as_str()));
+        names
     }
-    /// The behaviours where a construct stands in the workspace, and the path and the words of what is wrong.
+    /// What each of them is, in a sentence.
+    pub fn behaviour_words(&self) -> Vec<String> {
+        let mut words = Vec::new();
+        if let Source::Stages(stages) = &self.source {
+            words.extend(stages.words());
+            words.push("the product of the fitnesses of all stages".into());
+        }
+        words.extend(self.form.behaviour.0.iter().map(|(_, form)| form.words()));
+        words
+    }
+    /// How many stages there are; none where candidates have none.
+    pub fn stages(&self) -> usize {
+        if let Source::Stages(stages) = &self.source { stages.names().len() } else { 0 }
+    }
+    /// What is wanted where a construct stands in the workspace, and the path and the words of what is wrong.
     ///
     /// # Errors
     /// Names that are not there.
@@ -100,13 +124,73 @@ impl Plan {
         population: &Population,
         construct: &Construct,
         built: bool,
-    ) -> Result<Vec<Behaviour>, build::Wrong> {
+    ) -> Result<Wanted, build::Wrong> {
+        let mut wanted = self.of_workspace(population, construct, built)?;
+        if let Some((stages, whole)) = self.composed(construct) {
+            let around = |part: &Construct| self.workspace.setting(part, built);
+            wanted.relay = Some(stages.relay(&whole, &population.groups, &around)?);
+            for k in 0..if built { whole.parts.len() } else { 0 } {
+                wanted.doors.extend(stages.doors(k, &whole, &population.groups, &around)?);
+            }
+        }
+        Ok(wanted)
+    }
+    /// Each stage of a candidate by itself: what is built of it, and what is wanted. Nothing where candidates have no stages.
+    ///
+    /// # Errors
+    /// As [`Plan::behaviours`].
+    pub fn alone(
+        &self,
+        population: &Population,
+        construct: &Construct,
+    ) -> Result<Vec<(Construct, Wanted)>, build::Wrong> {
+        let Some((stages, whole)) = self.composed(construct) else { return Ok(Vec::new()) };
+        let around = |part: &Construct| self.workspace.setting(part, true);
+        let relay = stages.relay(&whole, &population.groups, &around)?;
+        let one = |(k, part): (usize, &Construct)| {
+            let mut wanted = Wanted { behaviours: Vec::new(), ..self.of_workspace(population, part, true)? };
+            wanted.relay = Some(relay.alone(k));
+            wanted.doors.extend(stages.doors(k, &whole, &population.groups, &around)?);
+            Ok((part.clone(), wanted))
+        };
+        whole.parts.iter().enumerate().map(one).collect()
+    }
+    /// The stages that a construct was put together of.
+    fn composed(&self, construct: &Construct) -> Option<(&Staged, Composition)> {
+        let Source::Stages(stages) = &self.source else { return None };
+        let attempt = construct.provenance.attempt;
+        // what was generated once is generated again
+        let whole = stages.composed(&self.workspace.workspace, self.form.seed, attempt).ok().flatten()?;
+        Some((stages, whole))
+    }
+    /// The behaviours and the doors of the file, without those of stages.
+    fn of_workspace(
+        &self,
+        population: &Population,
+        construct: &Construct,
+        built: bool,
+    ) -> Result<Wanted, build::Wrong> {
         let setting = self.workspace.setting(construct, built);
         let around = Around { setting: &setting, groups: &population.groups };
         let one = |(name, form): &(String, crate::environment::behaviour::BehaviourForm)| {
             form.plain(name, around).map_err(|wrong| wrong.below(&format!("behaviour.{name}")))
         };
-        self.form.behaviour.0.iter().map(one).collect()
+        let behaviours = self.form.behaviour.0.iter().map(one).collect::<Result<_, _>>()?;
+        let door = |(name, form): &(String, DoorForm)| {
+            let door = form.wall().and_then(|wall| form.door(name, wall, around));
+            door.map_err(|wrong| wrong.below(&format!("door.{name}")))
+        };
+        let doors = self.form.door.0.iter().map(door).collect::<Result<_, _>>()?;
+        Ok(Wanted { relay: None, behaviours, doors })
+    }
+    /// The doors where a construct stands.
+    pub fn doors(&self, construct: &Construct) -> Vec<Door> {
+        let wanted = self.populations.first().map(|population| self.behaviours(population, construct, true));
+        wanted.and_then(Result::ok).map_or_else(Vec::new, |wanted| wanted.doors)
+    }
+    /// The seed of a trial of a stage by itself.
+    pub fn seed_alone(&self, attempt: u64, trial: usize, stage: usize) -> u64 {
+        child_seed(child_seed(self.form.seed, CANDIDATE, attempt, 0), STAGE, trial as u64, stage as u32) >> 1
     }
     /// The seed of a trial of a candidate: the same for all groups, with the construct and without it. It has 63 bits, so
     /// that a file can give it.
@@ -186,11 +270,14 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         texts.push(text);
     }
     let units = workspace.workspace.units;
-    let source = form.candidates.source(&texts, units, &tree, &mut files.desk)?;
+    let mut source = form.candidates.source(&texts, units, &tree, &mut files.desk)?;
     let filter = filter::all_of(&form.filter, &tree, &mut files.desk);
     let start = Span { source: tree.span.source, bytes: 0..0 };
     let base = files.scenario(form.scenario.as_ref(), &form.title, &form.set.0, &start, "design")?;
     let populations = populations(&base, &form.population, units, files)?;
+    if let Source::Stages(stages) = &mut source {
+        wide(stages, &populations, &tree, &mut files.desk)?;
+    }
     let sequential = match &form.sequential {
         None => None,
         Some(test) => match SequentialTest::new(test.lower, test.higher, test.alpha, test.beta, form.trials as u32) {
@@ -202,7 +289,10 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         },
     };
     if let Some(robustness) = &form.robustness {
-        let behaviours: Vec<&str> = form.behaviour.0.iter().map(|(name, _)| name.as_str()).collect();
+        let mut behaviours: Vec<&str> = form.behaviour.0.iter().map(|(name, _)| name.as_str()).collect();
+        if let Source::Stages(stages) = &source {
+            behaviours.extend(stages.names().into_iter().chain([WHOLE]));
+        }
         let groups: Vec<&str> = populations.iter().map(|population| population.name.as_str()).collect();
         for (key, given, known) in
             [("behaviour", &robustness.behaviour, behaviours), ("population", &robustness.population, groups)]
@@ -215,7 +305,13 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
             }
         }
     }
-    if form.behaviour.0.is_empty() {
+    if let Source::Stages(stages) = &source {
+        for (name, _) in form.behaviour.0.iter().filter(|(name, _)| name == WHOLE || stages.names().contains(&&**name))
+        {
+            let what = format!("`{name}` is the name of a stage, or of all");
+            files.desk.problem(&tree.place(&format!("behaviour.{name}")), what, "another name", "");
+        }
+    } else if form.behaviour.0.is_empty() {
         files.desk.problem(&tree.place("behaviour"), "nothing is wanted", "at least one [behaviour.NAME]", "");
     }
     let attempts = if quick { form.quick_attempts.min(form.attempts) } else { form.attempts };
@@ -236,6 +332,28 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         tried(&plan, &tree, &mut files.desk);
     }
     Some(plan)
+}
+
+/// Tells stages how wide the widest body of all groups is.
+fn wide(stages: &mut Staged, populations: &[Population], tree: &Node, desk: &mut Desk) -> Option<()> {
+    let mut widest: f64 = 0.0;
+    for population in populations {
+        match population.widest() {
+            Ok(radius) => widest = widest.max(radius),
+            Err(what) => {
+                let what = format!("`{}` cannot begin: {what}", population.name);
+                desk.problem(&tree.place("scenario"), what, "not possible", "");
+                return None;
+            }
+        }
+    }
+    if let Some(stage) = stages.unknown_width().filter(|_| widest <= 0.0) {
+        let place = tree.place(&format!("candidates.stages.{stage}.name"));
+        desk.problem(&place, "bodies have no radius", "a `clearance` for its ways", "");
+        return None;
+    }
+    stages.widest(widest);
+    Some(())
 }
 
 /// Whether a first feasible candidate gives a world in which the behaviours have a meaning.
@@ -264,7 +382,7 @@ fn tried(plan: &Plan, tree: &Node, desk: &mut Desk) {
                 let scenario = population.among(geometry);
                 // stopped at once: that it can begin is what is asked
                 if let Err(what) =
-                    trial::run(&scenario, population, &behaviours, plan.seed_of(0, 1), &|| true, &mut |_| ())
+                    trial::relayed(&scenario, population, &behaviours, plan.seed_of(0, 1), &|| true, &mut |_| ())
                 {
                     let what = format!("`{}` cannot begin: {what}", population.name);
                     desk.problem(&tree.place("scenario"), what, "not possible", "");

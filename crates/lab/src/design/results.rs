@@ -15,6 +15,9 @@ pub struct Trials {
     pub built: Vec<Tried>,
     /// Without it.
     pub control: Vec<Tried>,
+    /// Each stage by itself, `[stages]`, begun where the group was handed over by the one before; empty where there are no
+    /// stages, or nobody came so far.
+    pub alone: Vec<Vec<Tried>>,
 }
 
 /// A share of successes.
@@ -74,8 +77,9 @@ impl<'a> Results<'a> {
     /// Results of one made-up candidate, to find out whether statements have a meaning.
     pub(super) fn example(plan: &'a Plan) -> Self {
         let outcome = Outcome { fitness: 1.0, value: 1.0 };
-        let tried = Tried { steps: 1, outcomes: vec![outcome; plan.form.behaviour.0.len()] };
-        let one = Trials { built: vec![tried.clone()], control: vec![tried] };
+        let tried = Tried { steps: 1, outcomes: vec![outcome; plan.behaviour_names().len()] };
+        let alone = vec![vec![tried.clone()]; plan.stages()];
+        let one = Trials { built: vec![tried.clone()], control: vec![tried], alone };
         let trials = BTreeMap::from([(0, vec![one; plan.populations.len()])]);
         Self { plan, survey: Survey::default(), trials, tried: vec![0] }
     }
@@ -97,6 +101,16 @@ impl<'a> Results<'a> {
             successes: sum.successes + share.successes,
             trials: sum.trials + share.trials,
         })
+    }
+    /// The trials of a stage by itself over all candidates.
+    pub fn alone<'b>(&'b self, population: usize, stage: usize, drawn: Option<&'b [usize]>) -> Vec<&'b Tried> {
+        let all = self.of(population, drawn);
+        all.into_iter().filter_map(|trials| trials.alone.get(stage)).flatten().collect()
+    }
+    /// The share of successes of a stage by itself over all candidates.
+    pub fn share_alone(&self, population: usize, stage: usize, drawn: Option<&[usize]>) -> Share {
+        let all: Vec<Tried> = self.alone(population, stage, drawn).into_iter().cloned().collect();
+        Share::of(&all, 0, self.plan.form.success)
     }
     /// The share of successes of each candidate.
     pub fn shares(&self, population: usize, behaviour: usize, drawn: Option<&[usize]>) -> Vec<Share> {
@@ -123,9 +137,10 @@ impl<'a> Results<'a> {
 }
 
 /// What statements can ask for, with what it is.
-pub const NAMES: [(&str, &str); 9] = [
+pub const NAMES: [(&str, &str); 10] = [
     ("rate", "share of trials with the construct that succeeded"),
     ("control", "share of trials without it that succeeded"),
+    ("alone", "share of trials of a stage by itself that succeeded"),
     ("tightness", "share of feasible candidates that are valid"),
     ("tightness_all", "share of generated candidates that are valid"),
     ("rates", "share of successes of each candidate, a list"),
@@ -194,6 +209,16 @@ impl Data for Results<'_> {
         Ok(match name {
             "rate" => Value::Number(self.share(population, behaviour, false, drawn).rate()),
             "control" => Value::Number(self.share(population, behaviour, true, drawn).rate()),
+            "alone" if behaviour < self.plan.stages() => {
+                Value::Number(self.share_alone(population, behaviour, drawn).rate())
+            }
+            "alone" => {
+                let what = format!("`{}` is no stage", behaviours[behaviour]);
+                let stages = behaviours[..self.plan.stages()].join(", ");
+                let help =
+                    if stages.is_empty() { "candidates have none".to_owned() } else { format!("one of {stages}") };
+                return Err(Mistake { help, ..Mistake::new(bytes.clone(), what) });
+            }
             "tightness" | "tightness_all" => {
                 let all = match name {
                     "tightness" => self.tried.len() as f64,

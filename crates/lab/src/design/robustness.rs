@@ -67,12 +67,18 @@ pub fn tried(results: &Results<'_>, copy: &Changed, stop: &dyn Fn() -> bool) -> 
     let population = &plan.populations[group];
     let geometry = plan.workspace.workspace.geometry.iter().chain(changed.geometry());
     let scenario = population.among(geometry);
-    let mut behaviours =
+    let mut wanted =
         plan.behaviours(population, &changed, true).map_err(|wrong| format!("{}: {}", wrong.path, wrong.what))?;
-    behaviours = vec![behaviours.swap_remove(behaviour)];
-    match trial::run(&scenario, population, &behaviours, seed, stop, &mut |_| ()) {
+    // without the others a trial ends as soon as this one is settled; stages need each other
+    let place = if wanted.relay.is_none() {
+        wanted.behaviours = vec![wanted.behaviours.swap_remove(behaviour)];
+        0
+    } else {
+        behaviour
+    };
+    match trial::relayed(&scenario, population, &wanted, seed, stop, &mut |_| ()) {
         Err(_) => Ok(Some(0.0)),
-        Ok(tried) => Ok(tried.and_then(|tried| tried.outcomes.first().map(|outcome| outcome.fitness))),
+        Ok(tried) => Ok(tried.and_then(|told| told.tried.outcomes.get(place).map(|outcome| outcome.fitness))),
     }
 }
 

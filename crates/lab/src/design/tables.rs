@@ -15,6 +15,8 @@ pub const RESULTS: &str = "results.parquet";
 pub const TRIALS: &str = "trials.parquet";
 /// A row for each group and behaviour.
 pub const RATES: &str = "rates.parquet";
+/// A row for each feasible candidate, group and stage, where there are stages.
+pub const STAGES: &str = "stages.parquet";
 
 /// Writes the tables.
 ///
@@ -29,6 +31,10 @@ pub fn write(folder: &Folder, results: &Results<'_>) -> Result<(), StoreError> {
         (RATES, rates(results)),
     ] {
         write_table(folder, name, &headings, &columns, &notes)?;
+    }
+    if results.plan.stages() > 0 {
+        let (headings, columns) = stages(results);
+        write_table(folder, STAGES, &headings, &columns, &notes)?;
     }
     Ok(())
 }
@@ -80,7 +86,7 @@ fn candidates(results: &Results<'_>) -> Filled {
 
 /// Attempt, group and behaviour of every row, by their places.
 fn rows<'a>(results: &'a Results<'_>) -> impl Iterator<Item = (u64, usize, usize, &'a Trials)> {
-    let behaviours = results.plan.form.behaviour.0.len();
+    let behaviours = results.plan.behaviour_names().len();
     results.tried.iter().flat_map(move |attempt| {
         let groups = results.trials.get(attempt).into_iter().flatten().enumerate();
         groups.flat_map(move |(group, trials)| (0..behaviours).map(move |one| (*attempt, group, one, trials)))
@@ -148,6 +154,42 @@ fn of_candidates(results: &Results<'_>) -> Filled {
         Values::Double(rows.iter().map(deviation).collect()),
         long(rows.iter().map(|row| control(row).trials)),
         Values::Double(rows.iter().map(|row| control(row).rate()).collect()),
+    ]);
+    (headings, columns)
+}
+
+/// Each stage by itself beside the same stage behind the others, and all together.
+fn stages(results: &Results<'_>) -> Filled {
+    let plan = results.plan;
+    let rows: Vec<_> = rows(results).filter(|row| row.2 < plan.stages()).collect();
+    let success = plan.form.success;
+    fn alone<'a>(row: &(u64, usize, usize, &'a Trials)) -> &'a [Tried] {
+        row.3.alone.get(row.2).map_or(&[], Vec::as_slice)
+    }
+    let mean = |trials: &[Tried], of: usize| {
+        let fitness = trials.iter().filter_map(|tried| tried.outcomes.get(of)).map(|outcome| outcome.fitness);
+        let fitness: Vec<f64> = fitness.filter(|fitness| fitness.is_finite()).collect();
+        measure::statistics::mean(&fitness).unwrap_or(f64::NAN)
+    };
+    let mut headings = of_row();
+    headings.extend([
+        Heading::new("alone_trials", "1", "Trials of the stage by itself.", Kind::Long),
+        Heading::new("alone_rate", "1", "Share of them that succeeded.", Kind::Double),
+        Heading::new("alone_fitness", "1", "Mean fitness of them.", Kind::Double),
+        Heading::new("joint_trials", "1", "Trials of all stages together.", Kind::Long),
+        Heading::new("joint_rate", "1", "Share of them in which this stage succeeded.", Kind::Double),
+        Heading::new("joint_fitness", "1", "Mean fitness of this stage in them; 0 where it never began.", Kind::Double),
+        Heading::new("whole_fitness", "1", "Mean product of the fitnesses of all stages in them.", Kind::Double),
+    ]);
+    let mut columns = names(results, &rows).to_vec();
+    columns.extend([
+        long(rows.iter().map(|row| Share::of(alone(row), 0, success).trials)),
+        Values::Double(rows.iter().map(|row| Share::of(alone(row), 0, success).rate()).collect()),
+        Values::Double(rows.iter().map(|row| mean(alone(row), 0)).collect()),
+        long(rows.iter().map(|row| Share::of(&row.3.built, row.2, success).trials)),
+        Values::Double(rows.iter().map(|row| Share::of(&row.3.built, row.2, success).rate()).collect()),
+        Values::Double(rows.iter().map(|row| mean(&row.3.built, row.2)).collect()),
+        Values::Double(rows.iter().map(|row| mean(&row.3.built, plan.stages())).collect()),
     ]);
     (headings, columns)
 }

@@ -246,7 +246,11 @@ fn comparison(text: &str, around: Around<'_>) -> Result<Condition, String> {
 }
 
 impl ConditionForm {
-    fn plain(&self, around: Around<'_>) -> Result<Condition, Wrong> {
+    /// The condition in a setting. Wrongs carry paths below it.
+    ///
+    /// # Errors
+    /// Signals and names that are not there.
+    pub fn plain(&self, around: Around<'_>) -> Result<Condition, Wrong> {
         let several = |list: &[Self], path: &str| {
             let one =
                 |(k, part): (usize, &Self)| part.plain(around).map_err(|wrong| wrong.below(&format!("{path}.{k}")));

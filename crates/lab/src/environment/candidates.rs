@@ -1,6 +1,7 @@
-//! Where environments come from, as it is written: a grammar, a schema, a grid of one, all arrangements of primitives, or files.
+//! Where environments come from, as it is written: a grammar, a schema, a grid of one, all arrangements of primitives, stages, or files.
 
 use super::grammar::GrammarSource;
+use super::stages::{StageForm, Staged, staged};
 use super::workspace::{Picture, Units, drawn};
 use crate::file::{Desk, Named, Node, Span};
 use crate::{form, tagged, words};
@@ -59,6 +60,8 @@ tagged! {
         primitives => Primitives(PrimitivesForm);
         /// Drawings: each file is one.
         files => Files(Vec<String>);
+        /// Stages that are built one behind the other, each by a schema of its own: a hierarchical schema.
+        stages => Stages(Vec<StageForm>);
     }
 }
 
@@ -96,6 +99,8 @@ pub enum Source {
     Primitives(Enumeration),
     /// Given constructs.
     Given(Vec<Construct>),
+    /// Stages.
+    Stages(Staged),
 }
 
 impl Source {
@@ -106,6 +111,7 @@ impl Source {
             Self::Schema(schema, _) | Self::Grid(schema, _) => format!("schema {}", schema.card().id),
             Self::Primitives(_) => "primitives".to_owned(),
             Self::Given(_) => "drawings".to_owned(),
+            Self::Stages(stages) => format!("stages {}", stages.names().join(", ")),
         }
     }
     /// How many candidates there are; none where there is no end.
@@ -115,6 +121,7 @@ impl Source {
             Self::Grid(_, axes) => Some(axes.iter().map(|axis| axis.len() as f64).product()),
             Self::Primitives(enumeration) => Some(enumeration.count()),
             Self::Given(list) => Some(list.len() as f64),
+            Self::Stages(stages) => Some(stages.count()),
         }
     }
     /// Names of the parameters of which candidates have values of their own.
@@ -125,6 +132,7 @@ impl Source {
                 let varied = card.parameters.iter().zip(axes).filter(|(_, axis)| axis.len() > 1);
                 varied.map(|(parameter, _)| parameter.name.to_string()).collect()
             }
+            Self::Stages(stages) => stages.parameters(),
             _ => Vec::new(),
         }
     }
@@ -141,6 +149,9 @@ impl Propose for Source {
             },
             Self::Primitives(enumeration) => enumeration.candidate(workspace, seed, attempt),
             Self::Given(list) => Ok(usize::try_from(attempt).ok().and_then(|k| list.get(k)).cloned()),
+            Self::Stages(stages) => {
+                stages.composed(workspace, seed, attempt).map(|whole| whole.map(|whole| whole.construct))
+            }
         }?;
         // by which it is known from here on
         if let Some(construct) = &mut made {
@@ -222,9 +233,10 @@ impl Candidates {
             Self::Grid(form) => {
                 let schema = schema_of(&form.id, "candidates.grid.id", tree, desk)?;
                 let values = values_of(&*schema, &form.at, "candidates.grid.at", tree, desk)?;
-                form.axes(&*schema, values, tree, desk).map(|axes| Source::Grid(schema, axes))
+                form.axes(&*schema, values, "candidates.grid", tree, desk).map(|axes| Source::Grid(schema, axes))
             }
             Self::Primitives(form) => form.enumeration(tree, desk).map(Source::Primitives),
+            Self::Stages(forms) => staged(forms, tree, desk).map(Source::Stages),
             Self::Files(names) => {
                 let units = if units == terrain::Units::Field { Units::Field } else { Units::Metres };
                 let mut list = Vec::new();
@@ -251,8 +263,15 @@ impl Candidates {
 }
 
 impl GridForm {
-    /// The values of each parameter of the schema, in its order.
-    fn axes(&self, schema: &dyn Schema, values: Vec<f64>, tree: &Node, desk: &mut Desk) -> Option<Vec<Vec<f64>>> {
+    /// The values of each parameter of the schema, in its order; `path` is that of this form.
+    pub(super) fn axes(
+        &self,
+        schema: &dyn Schema,
+        values: Vec<f64>,
+        path: &str,
+        tree: &Node,
+        desk: &mut Desk,
+    ) -> Option<Vec<Vec<f64>>> {
         let card = schema.card();
         let before = desk.problems.len();
         let mut axes: Vec<Vec<f64>> = values.into_iter().map(|value| vec![value]).collect();
@@ -261,7 +280,7 @@ impl GridForm {
             let near = nearest(name, card.parameters.iter().map(|parameter| &*parameter.name));
             let help = near.map_or_else(String::new, |near| format!("did you mean `{near}`?"));
             let what = format!("`{}` has no parameter `{name}`", card.id);
-            desk.problem(&tree.place(&format!("candidates.grid.{key}.{name}")), what, "not a parameter", help);
+            desk.problem(&tree.place(&format!("{path}.{key}.{name}")), what, "not a parameter", help);
         };
         let mut wrongs: Vec<(String, String)> = Vec::new();
         for (name, list) in &self.values.0 {
@@ -290,8 +309,8 @@ impl GridForm {
                 Err(error) => wrongs.push((format!("resolution.{name}"), error.to_string())),
             }
         }
-        for (path, what) in wrongs {
-            desk.problem(&tree.place(&format!("candidates.grid.{path}")), what, "not possible", "");
+        for (below, what) in wrongs {
+            desk.problem(&tree.place(&format!("{path}.{below}")), what, "not possible", "");
         }
         (desk.problems.len() == before).then_some(axes)
     }

@@ -5,9 +5,12 @@
 pub mod behaviour;
 pub mod candidates;
 pub mod claims;
+pub mod doors;
 pub mod filter;
 pub mod grammar;
+pub mod relay;
 pub mod signal;
+pub mod stages;
 pub mod trial;
 pub mod work;
 pub mod workspace;

@@ -1,9 +1,12 @@
 //! One trial: a group in an environment with one seed, stepped until nothing that is asked can change any more.
 
+use super::doors::{Door, Guarded, Moved};
+use super::relay::{Relay, State};
 use crate::file::write::toml;
 use crate::file::{Form, Named, Node, Tree};
 use crate::form;
 use crate::scenario::build::{self, Wrong};
+use crate::scenario::start::{Place, Start};
 use crate::scenario::surroundings::{Ball, Obstacle, ObstacleShape, Segment};
 use crate::scenario::{Precision, Scenario};
 use crate::study::plan::Files;
@@ -78,6 +81,29 @@ impl Population {
         scenario.obstacle.extend(obstacles(geometry));
         scenario
     }
+
+    /// Radius of the widest body of a group; 0 where bodies are points.
+    ///
+    /// # Errors
+    /// A scenario without a possible world, in a sentence.
+    pub fn widest(&self) -> Result<f64, String> {
+        let world = build::world::<f64, 2>(&self.scenario, self.scenario.seed.unwrap_or(0), 1)?;
+        Ok(world.groups().iter().map(swarm::engine::Group::radius).fold(0.0, f64::max))
+    }
+    /// The group as it was at some moment of another trial: places and velocities, where everyone is there.
+    pub fn from_state(&self, state: &State) -> Option<Self> {
+        let mut population = self.clone();
+        let mut first = 0;
+        for (_, group) in &mut population.scenario.group.0 {
+            let members = first..first + group.count;
+            first = members.end;
+            let places = state.positions.get(members.clone())?.iter().map(|place| Some((*place)?.0.to_vec()));
+            let velocities = state.velocities.get(members)?.iter().map(|v| v.unwrap_or(Point::ZERO).0.to_vec());
+            let place = Place::Points(places.collect::<Option<_>>()?);
+            group.start = Some(Start { place, velocities: Some(velocities.collect()), ..Start::default() });
+        }
+        Some(population)
+    }
 }
 
 /// Geometry as the obstacles of a scenario. Walls without length are in nobody's way and are left out.
@@ -97,10 +123,12 @@ pub fn obstacles<'a>(geometry: impl IntoIterator<Item = &'a Geometry>) -> Vec<Ob
     shapes.filter_map(written).map(obstacle).collect()
 }
 
-/// The scenario file of a trial among this geometry: run with its seed it is that trial, bit by bit.
+/// The scenario file of a trial among this geometry and doors at the times when they moved: run with its seed it is that trial, bit
+/// by bit.
 pub fn file<'a>(
     population: &Population,
     geometry: impl IntoIterator<Item = &'a Geometry>,
+    doors: Vec<Obstacle>,
     seed: u64,
     title: &str,
 ) -> String {
@@ -114,6 +142,7 @@ pub fn file<'a>(
     put("seed", seed.write());
     let mut all = population.scenario.obstacle.clone();
     all.extend(obstacles(geometry));
+    all.extend(doors);
     put("obstacle", all.write());
     toml(&tree)
 }
@@ -137,6 +166,28 @@ pub struct Tried {
     pub outcomes: Vec<Outcome>,
 }
 
+/// What is wanted in a trial.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Wanted {
+    /// Stage after stage. What comes of the stages, and of all together, stands before what comes of the behaviours.
+    pub relay: Option<Relay>,
+    /// From the start on.
+    pub behaviours: Vec<Behaviour>,
+    /// What opens and shuts meanwhile.
+    pub doors: Vec<Door>,
+}
+
+/// A trial with what happened in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Told {
+    /// What came of it.
+    pub tried: Tried,
+    /// Where the group was handed over, once for each stage that ended so.
+    pub handed: Vec<State>,
+    /// The doors that opened and shut, in order.
+    pub moved: Vec<Moved>,
+}
+
 /// Runs a trial; none where it was stopped. `see` is shown the positions of all members at every step, from the start on.
 ///
 /// # Errors
@@ -149,25 +200,43 @@ pub fn run(
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(&[Option<Point>]),
 ) -> Result<Option<Tried>, String> {
+    let wanted = Wanted { behaviours: behaviours.to_vec(), ..Wanted::default() };
+    Ok(relayed(scenario, population, &wanted, seed, stop, see)?.map(|told| told.tried))
+}
+
+/// Runs a trial in which stages may be wanted, and doors open and shut.
+///
+/// # Errors
+/// As [`run`].
+pub fn relayed(
+    scenario: &Scenario,
+    population: &Population,
+    wanted: &Wanted,
+    seed: u64,
+    stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(&[Option<Point>]),
+) -> Result<Option<Told>, String> {
     match scenario.precision {
-        Precision::Single => tried::<f32>(scenario, population, behaviours, seed, stop, see),
-        Precision::Double => tried::<f64>(scenario, population, behaviours, seed, stop, see),
+        Precision::Single => tried::<f32>(scenario, population, wanted, seed, stop, see),
+        Precision::Double => tried::<f64>(scenario, population, wanted, seed, stop, see),
     }
 }
 
 fn tried<R: Scalar>(
     scenario: &Scenario,
     population: &Population,
-    behaviours: &[Behaviour],
+    wanted: &Wanted,
     seed: u64,
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(&[Option<Point>]),
-) -> Result<Option<Tried>, String>
+) -> Result<Option<Told>, String>
 where
     Models: Catalogue<R, 2>,
 {
-    let mut world = build::world::<R, 2>(scenario, seed, 1)?;
-    let mut watches: Vec<Watch> = behaviours.iter().map(Behaviour::watch).collect();
+    let (mut world, places) = with_doors::<R>(scenario, &wanted.doors, seed)?;
+    let mut watches: Vec<Watch> = wanted.behaviours.iter().map(Behaviour::watch).collect();
+    let mut following = wanted.relay.as_ref().map(Relay::follow);
+    let mut guarded = Guarded::new(&wanted.doors);
     let members = population.members();
     let (mut positions, mut velocities) = (vec![None; members], vec![None; members]);
     loop {
@@ -184,19 +253,67 @@ where
         for watch in watches.iter_mut().filter(|watch| !watch.settled()) {
             watch.step(&moment);
         }
+        let mut settled = watches.iter().all(Watch::settled);
+        if let Some(following) = &mut following {
+            following.step(&moment);
+            settled &= following.settled();
+        }
         let step = world.step_number();
-        if step == population.steps || watches.iter().all(Watch::settled) {
-            let outcomes = watches.iter().zip(behaviours).map(|(watch, behaviour)| outcome(watch, behaviour)).collect();
-            return Ok(Some(Tried { steps: step, outcomes }));
+        if step == population.steps || settled {
+            let mut outcomes = following.as_ref().map_or_else(Vec::new, |following| following.outcomes());
+            outcomes.extend(watches.iter().zip(&wanted.behaviours).map(|(watch, behaviour)| outcome(watch, behaviour)));
+            let handed = following.map_or_else(Vec::new, |following| following.handed);
+            return Ok(Some(Told { tried: Tried { steps: step, outcomes }, handed, moved: guarded.moved }));
         }
         if step.is_multiple_of(ASKED) && stop() {
             return Ok(None);
+        }
+        let moved = guarded.step(&moment, world.time());
+        if !moved.is_empty() {
+            let put = |(door, shut): (usize, bool)| (places[door], shut.then_some(Vector::ZERO));
+            world.put_obstacles(&moved.into_iter().map(put).collect::<Vec<_>>());
         }
         world.step();
     }
 }
 
-fn outcome(watch: &Watch, behaviour: &Behaviour) -> Outcome {
+/// The world of a scenario with doors in it, and the place of each among the obstacles. Nobody begins in a door that is shut; one
+/// that is open is not there for the start.
+fn with_doors<R: Scalar>(
+    scenario: &Scenario,
+    doors: &[Door],
+    seed: u64,
+) -> Result<(swarm::World<R, 2>, Vec<usize>), String>
+where
+    Models: Catalogue<R, 2>,
+{
+    if doors.is_empty() {
+        return Ok((build::world::<R, 2>(scenario, seed, 1)?, Vec::new()));
+    }
+    let mut with = scenario.clone();
+    let mut open = Vec::new();
+    let mut places = vec![0; doors.len()];
+    for (k, door) in doors.iter().enumerate() {
+        if door.begins_shut() {
+            places[k] = with.obstacle.len();
+            with.obstacle.extend(obstacles([&Geometry::Wall(door.wall)]));
+        } else {
+            open.push(k);
+        }
+    }
+    let mut plan = build::planned::<R, 2>(&with, seed, 1)?;
+    for &k in &open {
+        let narrow = |p: Point| Vector(p.0.map(R::of));
+        let wall = Shape::Segment { from: narrow(doors[k].wall.from), to: narrow(doors[k].wall.to) };
+        places[k] = plan.obstacles.len();
+        plan.obstacles.push(space::obstacles::Obstacle::new(wall));
+    }
+    let mut world = swarm::World::new(plan).map_err(|error| format!("with the seed {seed}: {error}"))?;
+    world.put_obstacles(&open.iter().map(|&k| (places[k], None)).collect::<Vec<_>>());
+    Ok((world, places))
+}
+
+pub(super) fn outcome(watch: &Watch, behaviour: &Behaviour) -> Outcome {
     let explained = watch.explain();
     let root = explained.first();
     let value = match &behaviour.score {

@@ -130,7 +130,7 @@ tagged! {
 }
 
 impl Region {
-    fn shape(&self) -> Result<Shape<f64, 2>, Wrong> {
+    pub(super) fn shape(&self) -> Result<Shape<f64, 2>, Wrong> {
         let shape = match self {
             Self::Box(corners) => {
                 Shape::Cuboid { low: point(&corners.low, "box.low")?, high: point(&corners.high, "box.high")? }
@@ -222,7 +222,7 @@ impl Resolved {
     }
 }
 
-fn point(numbers: &[f64], path: &str) -> Result<Point, Wrong> {
+pub(super) fn point(numbers: &[f64], path: &str) -> Result<Point, Wrong> {
     vector::<f64, 2>(numbers).map_err(|what| Wrong::new(path, what, "2 numbers"))
 }
 
@@ -230,7 +230,7 @@ fn points(list: &[Vec<f64>], path: &str) -> Result<Vec<Point>, Wrong> {
     list.iter().enumerate().map(|(k, numbers)| point(numbers, &format!("{path}.{k}"))).collect()
 }
 
-fn segment(numbers: &[f64], path: &str) -> Result<Segment, Wrong> {
+pub(super) fn segment(numbers: &[f64], path: &str) -> Result<Segment, Wrong> {
     match *numbers {
         [x0, y0, x1, y1] => Ok(Segment { from: Vector([x0, y0]), to: Vector([x1, y1]) }),
         _ => Err(Wrong::new(path, format!("{} numbers for a line", numbers.len()), "[x0, y0, x1, y1]")),

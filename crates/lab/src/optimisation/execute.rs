@@ -10,6 +10,7 @@ use super::searcher::Searcher;
 use super::trials::{self, Found, Purpose};
 use super::{report, tables};
 use crate::design::export::environment_files;
+use crate::environment::trial;
 use crate::environment::work::{Watch, packed, spread, unpacked};
 use crate::store::StoreError;
 use crate::store::folder::Folder;
@@ -136,7 +137,8 @@ fn finish(folder: &Folder, results: &Results<'_>, program: &str) -> Result<(), S
     for (stem, construct, seed, title) in report::exported(results) {
         let workspace = results.plan.workspace.workspace.clone();
         let environment = Environment { workspace, construct, schedule: None };
-        environment_files(folder, &stem, &environment, &results.plan.population, seed, &title)?;
+        let trial = trial::file(&results.plan.population, environment.geometry(), Vec::new(), seed, &title);
+        environment_files(folder, &stem, &environment, &trial)?;
     }
     folder.write_text(REPORT, &crate::report::html(&report::page(results, program)))
 }

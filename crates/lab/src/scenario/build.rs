@@ -628,6 +628,24 @@ where
     Ok(plan)
 }
 
+/// What a world of a scenario is built from.
+///
+/// # Errors
+/// What this seed makes impossible, in a sentence.
+pub(crate) fn planned<R: Scalar, const D: usize>(
+    scenario: &Scenario,
+    seed: u64,
+    threads: usize,
+) -> Result<WorldPlan<R, D>, String>
+where
+    Models: Catalogue<R, D>,
+{
+    plan::<R, D>(scenario, seed, threads).map_err(|wrongs| {
+        let lines: Vec<String> = wrongs.iter().map(|wrong| format!("{}: {}", wrong.path, wrong.what)).collect();
+        format!("with the seed {seed}: {}", lines.join("; "))
+    })
+}
+
 /// The world of a scenario with a seed.
 ///
 /// # Errors
@@ -640,10 +658,7 @@ pub fn world<R: Scalar, const D: usize>(
 where
     Models: Catalogue<R, D>,
 {
-    let plan = plan::<R, D>(scenario, seed, threads).map_err(|wrongs| {
-        let lines: Vec<String> = wrongs.iter().map(|wrong| format!("{}: {}", wrong.path, wrong.what)).collect();
-        format!("with the seed {seed}: {}", lines.join("; "))
-    })?;
+    let plan = planned::<R, D>(scenario, seed, threads)?;
     swarm::World::new(plan).map_err(|error| format!("with the seed {seed}: {error}"))
 }
 

@@ -38,7 +38,9 @@ impl Designed {
         Ok(Self { plan, survey, trials, copies })
     }
     fn drawn(&self, construct: &Construct) -> Drawing {
-        report::of_environment(&environment(&self.plan, construct), String::new())
+        let mut drawing = report::of_environment(&environment(&self.plan, construct), String::new());
+        report::put_doors(&mut drawing, &self.plan, construct);
+        drawing
     }
     /// The derivation of an environment, step by step; nothing where no grammar made it.
     fn derivation(&self, construct: &Construct) -> Vec<Drawing> {
@@ -78,7 +80,7 @@ impl Searched for Designed {
                 };
                 (0..plan.populations.len()).map(share).collect()
             };
-            (0..plan.form.behaviour.0.len()).map(of).collect::<Vec<_>>().into()
+            (0..plan.behaviour_names().len()).map(of).collect::<Vec<_>>().into()
         };
         let environments: Vec<Json> = self
             .survey

@@ -131,7 +131,7 @@ impl Searched for Mapped {
         let geometry = plan.workspace.workspace.geometry.iter().chain(spot.construct.geometry());
         let attempt = at.perhaps("construct").unwrap_or(0) as u64;
         let seed = child_seed(spot.seed, TRIAL, attempt * execute::TRIALS_OF_ONE + number as u64, 0) >> 1;
-        let text = trial::file(population, geometry, seed, &title);
+        let text = trial::file(population, geometry, Vec::new(), seed, &title);
         Ok(Watched::Scenario { name: format!("{}.toml", population.name), text, seed: None })
     }
     fn page(&self, program: &str) -> Page {

@@ -193,7 +193,7 @@ impl Searched for Optimised {
         let seed = seed_of(plan, one.trial.0, one.trial.1, number - 1);
         let geometry = plan.workspace.workspace.geometry.iter().chain(one.construct.geometry());
         let title = format!("{}: {}, trial {number}", plan.form.title, one.name);
-        let text = trial::file(&plan.population, geometry, seed, &title);
+        let text = trial::file(&plan.population, geometry, Vec::new(), seed, &title);
         let name = format!("{}.toml", one.name.replace([',', ' '], "-").replace("--", "-"));
         Ok(Watched::Scenario { name, text, seed: None })
     }
