@@ -153,6 +153,22 @@ fn an_unknown_group_is_named_where_environments_tell_groups_apart() {
     // with the certain prior the group is known before anything is seen
     let known = again("known", "inverse.prior={swift = 99, slow = 1}");
     assert!(known.contains("chosen: 0 (0 to 0) trials, 100.0 % named, 50.0 % of them rightly"), "{known}");
+    // outcomes may be parts of a graded fitness
+    let graded = "[behaviour.height]\nscore.ramp = { signal = \"centroid_y\", worst = 0, best = 40 }\n[scenario]";
+    let parted = INVERSE
+        .replacen("[scenario]", graded, 1)
+        .replacen("[inverse]", "[inverse]\noutcome = { far = [1], height = [0.2, 0.8] }", 1);
+    std::fs::write(folder.join("parted.toml"), parted).unwrap();
+    done(&folder, &["run", "parted.toml", "--out", "parted"]);
+    done(&folder, &["export", "parted", "--to", "csv"]);
+    let table = std::fs::read_to_string(folder.join("parted/outcomes.csv")).unwrap();
+    for row in [
+        "0,swift,\"far, height from 0.8\",10,10,1,",
+        "0,slow,\"not far, height below 0.2\",10,10,1,",
+        "0,slow,\"far, height 0.2 to 0.8\",0,10,0,",
+    ] {
+        assert!(table.contains(row), "{table}");
+    }
     // groups that are alike do alike in the same trials: nothing is told, and nobody is named
     std::fs::write(folder.join("twins.toml"), INVERSE.replace("step_length\" = 0.1", "step_length\" = 1")).unwrap();
     let twins = done(&folder, &["run", "twins.toml", "--out", "twins"]);

@@ -67,7 +67,7 @@ impl Kind for Design {
              files](map.md).\n\nShipped grammars: {}.\n\nFilters:\n\n{}\n\nPrimitives:\n\n{}\n\nBehaviours:\n\n{}\n\n\
              Signals that behaviours read:\n\n{}\n\nWhat statements can ask for, with `[behaviour = ..., population = ...]` \
              where there are several:\n\n{}\n\nWhat statements about identifications (`inverse.claim`) can ask for, with \
-             `[by = ..., population = ...]`:\n\n{}\n\nby:\n\n{}",
+             `[by = ..., population = ...]`:\n\n{}\n\nWays to choose environments (`by`):\n\n{}",
             terrain::grammars::LIST.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
             filters.join("\n"),
             primitives.join("\n"),
