@@ -80,6 +80,108 @@ fn a_design_is_the_same_for_any_threads_and_stops() {
     std::fs::remove_dir_all(folder).unwrap();
 }
 
+/// Two groups that walk up, one of them slowly; a wall far away, and one that nobody passes. Where nothing is in the way the
+/// outcome is that of the group for certain, behind the wall it is always the same.
+const INVERSE: &str = r#"
+kind = "design"
+title = "Who walks here"
+trials = 10
+control = false
+candidates.primitives = { count = 1, kind.wall = { x = [-200], y = [-300, 10], angle = [0], length = [400] } }
+[behaviour.far]
+score.binary = { when = "centroid_y >= 20", within = 40 }
+[scenario]
+time.duration = 60
+[scenario.space]
+dimensions = 2
+edges = "open"
+[scenario.group.walkers]
+count = 3
+model.control_random = { noise_deviation = 0 }
+start = { place.box = { low = [-5, -5], high = [5, 0] }, heading.along = [0, 1] }
+[population.swift]
+[population.slow]
+set."group.walkers.model.control_random.step_length" = 0.1
+[inverse]
+identifications = 4
+most = 6
+[[inverse.claim]]
+id = "chosen"
+text = "The open place tells more than the average one"
+number = "needed[by = average] - needed[by = chosen]"
+holds = "needed[by = chosen] < needed[by = average] and needed[by = greedy] = 1 and right[by = chosen] = 1"
+"#;
+
+const IDENTIFIED: [&str; 6] = [
+    "outcomes.parquet",
+    "information.parquet",
+    "identifications.parquet",
+    "courses.parquet",
+    "trials.parquet",
+    "report.html",
+];
+
+#[test]
+fn an_unknown_group_is_named_where_environments_tell_groups_apart() {
+    let folder = folder("inverse");
+    std::fs::write(folder.join("who.toml"), INVERSE).unwrap();
+    let told = done(&folder, &["run", "who.toml", "--threads", "1", "--out", "one"]);
+    // 10 of 10 against 0 of 10: one whole bit, and one trial gives odds of 10.5 to 0.5, which is above 0.95
+    assert!(told.contains("a trial in environment 0 tells most: 1.000 (1.000 to 1.000) bits"), "{told}");
+    assert!(told.contains("chosen: 1 (1 to 1) trials, 100.0 % named, 100.0 % of them rightly"), "{told}");
+    // behind the wall nobody is ever named, and all six trials are made
+    assert!(told.contains("average: 3.5 (3.5 to 3.5) trials, 50.0 % named, 100.0 % of them rightly"), "{told}");
+    assert!(told.contains("chosen: holds [2.5 (2.5 to 2.5)]"), "{told}");
+    let one = files(&folder.join("one"), &IDENTIFIED);
+    done(&folder, &["run", "who.toml", "--threads", "3", "--out", "three"]);
+    assert!(one == files(&folder.join("three"), &IDENTIFIED), "threads change nothing");
+    torn(&folder.join("one"), &folder.join("torn"), "candidates.log");
+    done(&folder, &["run", "who.toml", "--out", "torn"]);
+    assert!(one == files(&folder.join("torn"), &IDENTIFIED), "a stop changes nothing");
+    done(&folder, &["report", "one"]);
+    assert!(one == files(&folder.join("one"), &IDENTIFIED));
+    // what was seen is kept: a lower threshold needs no new trials, a higher one some, and both are as if asked at once
+    let again = |out: &str, set: &str| done(&folder, &["run", "who.toml", "--out", out, "--set", set]);
+    again("one", "inverse.threshold=0.99");
+    again("whole", "inverse.threshold=0.99");
+    assert!(files(&folder.join("one"), &IDENTIFIED[..5]) == files(&folder.join("whole"), &IDENTIFIED[..5]));
+    let log = |out: &str| std::fs::metadata(folder.join(out).join("candidates.log")).unwrap().len();
+    let before = log("one");
+    again("one", "inverse.threshold=0.95");
+    assert!(one[..5] == files(&folder.join("one"), &IDENTIFIED[..5]));
+    assert_eq!(log("one"), before);
+    // with the certain prior the group is known before anything is seen
+    let known = again("known", "inverse.prior={swift = 99, slow = 1}");
+    assert!(known.contains("chosen: 0 (0 to 0) trials, 100.0 % named, 50.0 % of them rightly"), "{known}");
+    // outcomes may be parts of a graded fitness
+    let graded = "[behaviour.height]\nscore.ramp = { signal = \"centroid_y\", worst = 0, best = 40 }\n[scenario]";
+    let parted = INVERSE.replacen("[scenario]", graded, 1).replacen(
+        "[inverse]",
+        "[inverse]\noutcome = { far = [1], height = [0.2, 0.8] }",
+        1,
+    );
+    std::fs::write(folder.join("parted.toml"), parted).unwrap();
+    done(&folder, &["run", "parted.toml", "--out", "parted"]);
+    done(&folder, &["export", "parted", "--to", "csv"]);
+    let table = std::fs::read_to_string(folder.join("parted/outcomes.csv")).unwrap();
+    for row in [
+        "0,swift,\"far, height from 0.8\",10,10,1,",
+        "0,slow,\"not far, height below 0.2\",10,10,1,",
+        "0,slow,\"far, height 0.2 to 0.8\",0,10,0,",
+    ] {
+        assert!(table.contains(row), "{table}");
+    }
+    // groups that are alike do alike in the same trials: nothing is told, and nobody is named
+    std::fs::write(folder.join("twins.toml"), INVERSE.replace("step_length\" = 0.1", "step_length\" = 1")).unwrap();
+    let twins = done(&folder, &["run", "twins.toml", "--out", "twins"]);
+    assert!(twins.contains("tells most: 0.000 (0.000 to 0.000) bits"), "{twins}");
+    for way in ["chosen", "average", "greedy", "drawn"] {
+        assert!(twins.contains(&format!("{way}: 6 (6 to 6) trials, 0.0 % named, \u{2013} of them rightly")), "{twins}");
+    }
+    assert!(twins.contains("chosen: does not hold"), "{twins}");
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
 #[test]
 fn a_map_is_the_same_for_any_threads_and_stops() {
     let folder = folder("map");
@@ -216,6 +318,29 @@ fn mistakes_are_told_at_their_place_with_what_is_near() {
     ] {
         let text = changed(&map, from, to);
         assert!(text.contains(told), "{to}: {text}");
+    }
+    for (from, to, told) in [
+        ("[inverse]", "[inverse]\noutcome.fare = [1]", "did you mean `far`"),
+        ("[inverse]", "[inverse]\noutcome.far = [1, 0.5]", "ascending"),
+        (
+            "[inverse]",
+            "[inverse]\noutcome.far = [0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12, \
+                       0.13, 0.14, 0.15, 0.16]",
+            "at most 16",
+        ),
+        ("[inverse]", "[inverse]\nprior = { swift = 1, slo = 1 }", "did you mean `slow`"),
+        ("[inverse]", "[inverse]\nprior = { swift = 1 }", "one for each group"),
+        ("[inverse]", "[inverse]\nprior = { swift = 0, slow = 0 }", "a weight above 0"),
+        ("[inverse]", "[inverse]\nthreshold = 0.4", "threshold"),
+        ("[inverse]", "[inverse]\nidentification = 4", "did you mean `identifications`"),
+        ("trials = 10", "trials = 10\nsequential = {}", "no `sequential` beside `inverse`"),
+        ("[population.slow]\nset.\"group.walkers.model.control_random.step_length\" = 0.1", "", "at least two"),
+        ("needed[by = average] -", "needed[by = averge] -", "did you mean `average`"),
+        ("needed[by = average] -", "needed -", "[by = ...]"),
+        ("needed[by = average] -", "neded[by = average] -", "did you mean `needed`"),
+    ] {
+        let text = changed(INVERSE, from, to);
+        assert!(text.contains(told) && text.contains("wrong.toml:"), "{to}: {text}");
     }
     let best = done(&folder, &["new", "optimisation"]);
     for (from, to, told) in [

@@ -4,7 +4,7 @@
 //! in whatever order and on however many threads, and tells it the values in the order of the points. What a search does
 //! next depends on its plan, its seed and the values told, and on nothing else. So it can stop anywhere and go on: the
 //! [genetic algorithm](genetic) from its population, [CMA-ES](evolution_strategy) and [MAP-Elites](elites) from the
-//! values told so far, a [refinement](refine) from its cells.
+//! values told so far, a [refinement](refine) from its cells. [Identification](identify) searches among hypotheses instead of points.
 //!
 //! Larger values are better. A value that is not a number is worse than any number.
 
@@ -17,6 +17,7 @@ pub mod elites;
 mod error;
 pub mod evolution_strategy;
 pub mod genetic;
+pub mod identify;
 pub mod mutation;
 pub mod refine;
 pub mod selection;

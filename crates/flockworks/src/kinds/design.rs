@@ -8,6 +8,7 @@ use crate::view::ViewOptions;
 use lab::design::execute::{self, REPORT};
 use lab::design::export::{self, ENVIRONMENTS};
 use lab::design::form::Design as Form;
+use lab::design::inverse;
 use lab::design::results::NAMES;
 use lab::design::robustness::ROBUSTNESS;
 use lab::design::tables::{CANDIDATES, RATES, RESULTS, STAGES, TRIALS};
@@ -61,18 +62,20 @@ impl Kind for Design {
                 format!("- `{}`: {} Attributes: {}.", kind.id, kind.about, names.join(", "))
             })
             .collect();
-        let names: Vec<String> = NAMES.iter().map(|(name, about)| format!("- `{name}`: {about}")).collect();
         let lead = format!(
             "Every key of a design file, TOML. [How to write one](../how-to/design.md). Schemas are listed with [map \
              files](map.md).\n\nShipped grammars: {}.\n\nFilters:\n\n{}\n\nPrimitives:\n\n{}\n\nBehaviours:\n\n{}\n\n\
              Signals that behaviours read:\n\n{}\n\nWhat statements can ask for, with `[behaviour = ..., population = ...]` \
-             where there are several:\n\n{}",
+             where there are several:\n\n{}\n\nWhat statements about identifications (`inverse.claim`) can ask for, with \
+             `[by = ..., population = ...]`:\n\n{}\n\nWays to choose environments (`by`):\n\n{}",
             terrain::grammars::LIST.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
             filters.join("\n"),
             primitives.join("\n"),
             behaviours.join("\n"),
             signals.join("\n"),
-            names.join("\n")
+            listed(NAMES.iter().map(|(name, about)| (*name, *about))),
+            listed(inverse::NAMES.iter().map(|(name, about)| (*name, *about))),
+            listed(inverse::Way::ALL.iter().map(|(_, word, about)| (*word, *about)))
         );
         lab::file::reference::reference::<Form>("Design files", &lead)
     }
@@ -96,7 +99,7 @@ impl Kind for Design {
         progress.clear();
         let done = done?;
         let end = End {
-            stopped: (done.left > 0).then(|| format!("stopped, {} candidates are left", done.left)),
+            stopped: (done.left > 0).then(|| format!("stopped, {} units of work are left", done.left)),
             made: format!("{} candidates", done.candidates),
             title: &plan.form.title,
             lines: &done.lines,
@@ -129,12 +132,20 @@ impl Kind for Design {
         if plan.stages() > 0 {
             tables.push(STAGES);
         }
+        if plan.form.inverse.is_some() {
+            tables.extend([inverse::OUTCOMES, inverse::INFORMATION, inverse::IDENTIFICATIONS, inverse::COURSES]);
+        }
         Ok(tables)
     }
     fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         execute::report_again(folder, PROGRAM)?;
         told(folder, out)
     }
+}
+
+/// Names with what they are, as a list.
+fn listed<'a>(all: impl Iterator<Item = (&'a str, &'a str)>) -> String {
+    all.map(|(name, about)| format!("- `{name}`: {about}")).collect::<Vec<_>>().join("\n")
 }
 
 fn told(folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {

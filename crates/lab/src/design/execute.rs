@@ -3,6 +3,7 @@
 //! Each feasible candidate ends as one record of an append-only log, known by its attempt. So a stop at any moment loses what is
 //! in flight and nothing else, and the tables are the same for any number of threads and stops.
 
+use super::inverse::{self, Streams, Telling};
 use super::plan::Plan;
 use super::results::{Results, Trials};
 use super::robustness::{self, Copies};
@@ -24,9 +25,10 @@ use terrain::Construct;
 pub const LOG: &str = "candidates.log";
 /// The page.
 pub const REPORT: &str = "report.html";
-/// Kinds of records: a candidate that was tried, a changed copy of one.
+/// Kinds of records: a candidate that was tried, a changed copy of one, what an unknown group did in one.
 const TRIED: u32 = 1;
 const CHANGED: u32 = 2;
+const SEEN: u32 = 3;
 
 /// What the folder of a design holds, and what may be added to it.
 const KIND: Kind = Kind { name: "design", one: "a design", may_grow: "candidates and statements" };
@@ -75,7 +77,7 @@ pub fn run(
     let mut job = Job::of_file(KIND, &file, out, (program, threads))?;
     let path = job.folder.path().to_owned();
     let survey = plan.survey().map_err(StoreError::Refused)?;
-    let (mut log, mut there, mut copies) = opened(&job.folder, plan)?;
+    let (mut log, Known { trials: mut there, mut copies, mut streams }) = opened(&job.folder, plan)?;
     let missing: Vec<&(u64, Construct)> =
         survey.feasible.iter().filter(|(attempt, _)| !there.contains_key(attempt)).collect();
     watch.begin(&path, "candidates", missing.len(), survey.feasible.len() - missing.len(), threads);
@@ -117,14 +119,57 @@ pub fn run(
         done.map_err(|error| job.fail(error))?;
         left = all.iter().filter(|copy| !copies.contains_key(*copy)).count();
         if left == 0 {
+            left = identify(&results, threads, &mut streams, &mut log, watch).map_err(|error| job.fail(error))?;
+        }
+        if left == 0 {
             lines = report::lines(&results);
-            finish(&job.folder, &results, &copies, program)?;
+            lines.extend(inverse::lines(&results, &streams));
+            finish(&job.folder, &results, &copies, &streams, program)?;
         }
     }
     let seconds = began.elapsed().as_secs_f64();
     job.note(&[("seconds", json!(seconds)), ("candidates", json!(candidates))]);
     job.end(left == 0)?;
     Ok(Done { folder: path, left, candidates, seconds, lines })
+}
+
+/// Sees what is missing of unknown groups; the answer is how many are left.
+fn identify(
+    results: &Results<'_>,
+    threads: usize,
+    streams: &mut Streams,
+    log: &mut Log,
+    watch: &mut dyn Watch,
+) -> Result<usize, StoreError> {
+    let plan = results.plan;
+    let Some(asked) = &plan.inverse else { return Ok(0) };
+    let telling = Telling::of(results, asked).map_err(StoreError::Refused)?;
+    let missing = inverse::missing(plan, asked, &telling, streams);
+    watch.more(missing.len());
+    let (stop, known) = (watch.stopper(), streams.clone());
+    let mut left = missing.len();
+    spread(
+        &missing,
+        threads,
+        &stop,
+        |unknown, stop| inverse::observe(results, asked, &telling, &known, *unknown, stop),
+        |(group, number), new| {
+            let mut updates = 0;
+            for (attempt, trials) in new {
+                let own = streams.entry((*group, *number, attempt)).or_default();
+                let mut words = vec![*group, *number, attempt, own.len() as u64];
+                trials.iter().for_each(|tried| put(&mut words, tried));
+                log.append(SEEN, &packed(words))?;
+                let steps: u64 = trials.iter().map(|tried| tried.steps).sum();
+                updates += plan.populations[*group as usize].members() as u64 * steps;
+                own.extend(trials);
+            }
+            watch.done(updates);
+            left -= 1;
+            Ok(())
+        },
+    )?;
+    Ok(left)
 }
 
 /// Makes tables and page of a complete folder anew.
@@ -134,84 +179,118 @@ pub fn run(
 pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
     let plan = of_folder(path)?;
     let folder = Folder::claim(path)?;
-    let (_, there, copies) = opened(&folder, &plan)?;
+    let (_, Known { trials: there, copies, streams }) = opened(&folder, &plan)?;
     let survey = plan.survey().map_err(StoreError::Refused)?;
     let missing = survey.feasible.iter().any(|(attempt, _)| !there.contains_key(attempt));
     let results = Results::new(&plan, survey, there);
-    if missing || robustness::copies(&results).iter().any(|copy| !copies.contains_key(copy)) {
+    let unseen = || plan.inverse.is_some() && inverse::Found::of(&results, &streams).is_none();
+    if missing || robustness::copies(&results).iter().any(|copy| !copies.contains_key(copy)) || unseen() {
         return Err(StoreError::Refused(format!("`{}` is not complete; the same run command goes on", path.display())));
     }
-    finish(&folder, &results, &copies, program)
+    finish(&folder, &results, &copies, &streams, program)
 }
 
-fn finish(folder: &Folder, results: &Results<'_>, copies: &Copies, program: &str) -> Result<(), StoreError> {
+fn finish(
+    folder: &Folder,
+    results: &Results<'_>,
+    copies: &Copies,
+    streams: &Streams,
+    program: &str,
+) -> Result<(), StoreError> {
     tables::write(folder, results)?;
     // copies of environments that were the best of fewer candidates are left out
     let wanted = robustness::copies(results);
     let copies: Copies = wanted.into_iter().filter_map(|copy| Some((copy, *copies.get(&copy)?))).collect();
     robustness::write(folder, results, &copies)?;
+    inverse::write(folder, results, streams)?;
     export::write(folder, results)?;
-    folder.write_text(REPORT, &crate::report::html(&report::page(results, &copies, program)))
+    folder.write_text(REPORT, &crate::report::html(&report::page(results, &copies, streams, program)))
 }
 
-fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, BTreeMap<u64, Vec<Trials>>, Copies), StoreError> {
+/// What a log holds.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// Trials by candidate.
+    pub trials: BTreeMap<u64, Vec<Trials>>,
+    /// Changed copies.
+    pub copies: Copies,
+    /// What unknown groups did.
+    pub streams: Streams,
+}
+
+fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, Known), StoreError> {
     let path = folder.file(LOG);
     let (mut log, records) = Log::resume(&path)?;
-    let (there, copies) = known(&mut log, &records, &path, plan)?;
-    Ok((log, there, copies))
+    let known = known(&mut log, &records, &path, plan)?;
+    Ok((log, known))
 }
 
 /// The design in a folder with what is known of its candidates, as one looks at it: nothing is written.
 ///
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
-pub fn look(path: &Path) -> Result<(Plan, BTreeMap<u64, Vec<Trials>>, Copies), StoreError> {
+pub fn look(path: &Path) -> Result<(Plan, Known), StoreError> {
     let plan = of_folder(path)?;
     let path = path.join(LOG);
     if !path.exists() {
-        return Ok((plan, BTreeMap::new(), Copies::new()));
+        return Ok((plan, Known::default()));
     }
     let (mut log, records) = Log::open_to_read(&path)?;
-    let (there, copies) = known(&mut log, &records, &path, &plan)?;
-    Ok((plan, there, copies))
+    let known = known(&mut log, &records, &path, &plan)?;
+    Ok((plan, known))
 }
 
-/// What the records of a log hold: trials by candidate, changed copies.
-fn known(
-    log: &mut Log,
-    records: &[Record],
-    path: &Path,
-    plan: &Plan,
-) -> Result<(BTreeMap<u64, Vec<Trials>>, Copies), StoreError> {
-    let (mut there, mut copies) = (BTreeMap::new(), Copies::new());
+/// What the records of a log hold.
+fn known(log: &mut Log, records: &[Record], path: &Path, plan: &Plan) -> Result<Known, StoreError> {
+    let mut there = Known::default();
     for record in records {
         let words = unpacked(&log.read(record)?);
         let damaged = || StoreError::Damaged(format!("a record in `{}` is no candidate", path.display()));
         match (record.kind, words.as_slice()) {
             (TRIED, words) => {
                 let (attempt, trials) = trials_of(plan, words).ok_or_else(damaged)?;
-                there.insert(attempt, trials);
+                there.trials.insert(attempt, trials);
             }
             (CHANGED, &[attempt, perturbation, size, copy, fitness]) => {
-                copies.insert((attempt, perturbation, size, copy), f64::from_bits(fitness));
+                there.copies.insert((attempt, perturbation, size, copy), f64::from_bits(fitness));
+            }
+            (SEEN, &[group, number, attempt, from, ref words @ ..]) => {
+                let stream = there.streams.entry((group, number, attempt)).or_default();
+                let mut words = words.iter().copied();
+                if stream.len() as u64 != from {
+                    return Err(damaged());
+                }
+                while words.len() > 0 {
+                    stream.push(next_trial(plan.behaviour_names().len(), &mut words).ok_or_else(damaged)?);
+                }
             }
             _ => return Err(damaged()),
         }
     }
-    Ok((there, copies))
+    Ok(there)
+}
+
+/// The words of a trial: its steps, and fitness and value of each behaviour.
+fn put(words: &mut Vec<u64>, tried: &Tried) {
+    words.push(tried.steps);
+    words.extend(tried.outcomes.iter().flat_map(|one| [one.fitness.to_bits(), one.value.to_bits()]));
+}
+
+fn next_trial(behaviours: usize, words: &mut dyn Iterator<Item = u64>) -> Option<Tried> {
+    let steps = words.next()?;
+    let mut number = || words.next().map(f64::from_bits);
+    let mut outcome = |_| Some(Outcome { fitness: number()?, value: number()? });
+    Some(Tried { steps, outcomes: (0..behaviours).map(&mut outcome).collect::<Option<_>>()? })
 }
 
 /// A record: the attempt, then for each group the numbers of trials with the construct, without it, and of each stage by itself;
-/// then trial by trial in this order the steps, and fitness and value of each behaviour (of a stage by itself, of that alone).
+/// then trial by trial in this order what [`put`] says (of a stage by itself, of its behaviour alone).
 fn words(attempt: u64, trials: &[Trials]) -> Vec<u64> {
     let mut words = vec![attempt];
     for trials in trials {
         let all = || [&trials.built, &trials.control].into_iter().chain(&trials.alone);
         words.extend(all().map(|list| list.len() as u64));
-        for tried in all().flatten() {
-            words.push(tried.steps);
-            words.extend(tried.outcomes.iter().flat_map(|one| [one.fitness.to_bits(), one.value.to_bits()]));
-        }
+        all().flatten().for_each(|tried| put(&mut words, tried));
     }
     words
 }
@@ -224,13 +303,7 @@ fn trials_of(plan: &Plan, words: &[u64]) -> Option<(u64, Vec<Trials>)> {
     for _ in &plan.populations {
         let counts: Vec<u64> = (0..2 + plan.stages()).map(|_| words.next()).collect::<Option<_>>()?;
         let mut next = |count: u64, behaviours: usize| -> Option<Vec<Tried>> {
-            let one = |_| {
-                let steps = words.next()?;
-                let mut number = || words.next().map(f64::from_bits);
-                let outcome = |_| Some(Outcome { fitness: number()?, value: number()? });
-                Some(Tried { steps, outcomes: (0..behaviours).map(outcome).collect::<Option<_>>()? })
-            };
-            (0..count).map(one).collect()
+            (0..count).map(|_| next_trial(behaviours, &mut words)).collect()
         };
         let (built, control) = (next(counts[0], behaviours)?, next(counts[1], behaviours)?);
         let alone = counts[2..].iter().map(|count| next(*count, 1)).collect::<Option<_>>()?;
@@ -293,7 +366,7 @@ fn candidate(
 }
 
 /// A trial; none where it was stopped.
-fn tried(
+pub(super) fn tried(
     scenario: &Scenario,
     population: &Population,
     wanted: &Wanted,

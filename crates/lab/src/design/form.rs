@@ -112,6 +112,27 @@ form! {
 }
 
 form! {
+    /// Which group is it: how well environments tell the groups of this file apart, and how soon an unknown one is named.
+    pub struct Inverse {
+        /// What is seen of a trial: behaviours, each with the fitnesses at which its outcomes part, ascending. Left out, all
+        /// behaviours, each parted at `success`.
+        outcome: Named<Vec<f64>> = [Named::default()], "1", Within(0.0, 1.0);
+        /// How probable each group is beforehand, as weights; left out, all are the same.
+        prior: Named<f64> = [Named::default()], "1", NonNegative;
+        /// A group is named once it is this probable.
+        threshold: f64 = [0.95], "1", Within(0.5, 0.999999);
+        /// Unknown groups that are identified, of each group, in trials of their own.
+        identifications: usize = [100usize], "1", Within(1.0, 100_000.0);
+        /// The same with `--quick`.
+        quick_identifications: usize = [10usize], "1", Within(1.0, 100_000.0);
+        /// Most trials of an identification.
+        most: usize = [50usize], "1", Within(1.0, 10_000.0);
+        /// Statements to judge, over `needed`, `identified`, `right`.
+        claim: Vec<Claim> = [Vec::new()], "", Any;
+    }
+}
+
+form! {
     /// A design: environments are generated, filtered, and tried on groups.
     pub struct Design {
         /// What kind of file this is.
@@ -159,6 +180,8 @@ form! {
         control: bool = [true], "", Any;
         /// Whether the best environments still work where they are off a little.
         robustness: Option<Robustness> = none, "", Any;
+        /// Which group is it: how well environments tell the groups apart.
+        inverse: Option<Inverse> = none, "", Any;
         /// Environments that the page draws.
         show: usize = [12usize], "1", Within(0.0, 200.0);
         /// Environments written as SVG, GeoJSON and scenario, of each group and behaviour those with most successes.

@@ -1,6 +1,7 @@
 //! From a design file to a workspace, candidates, groups and behaviours.
 
 use super::form::Design;
+use super::inverse::{self, Inverse};
 use super::results::Results;
 use crate::environment::behaviour::Around;
 use crate::environment::candidates::Source;
@@ -23,7 +24,7 @@ use terrain::hierarchy::Composition;
 use terrain::{Construct, Environment};
 
 /// Kinds of child seeds, beside those of searches: a candidate, and a trial of it.
-const CANDIDATE: u32 = 4;
+pub(super) const CANDIDATE: u32 = 4;
 pub(crate) const TRIAL: u32 = 5;
 /// A trial of a stage by itself.
 const STAGE: u32 = 14;
@@ -44,6 +45,8 @@ pub struct Plan {
     pub populations: Vec<Population>,
     /// When to stop trying.
     pub sequential: Option<SequentialTest>,
+    /// Which group it is, where that is asked.
+    pub inverse: Option<Inverse>,
     /// Most candidates that are generated.
     pub attempts: u64,
     /// The texts of the files that candidates come from.
@@ -204,6 +207,8 @@ impl Plan {
         (form.attempts, form.quick_attempts, form.feasible) = (1, 1, None);
         (form.show, form.export) = (0, 0);
         form.claim = Vec::new();
+        // what unknown groups were seen to do is kept as it was seen, whatever is made of it
+        form.inverse = None;
         form.scenario = None;
         let scenario = |population: &Population| {
             let mut scenario = population.scenario.clone();
@@ -314,6 +319,10 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
     } else if form.behaviour.0.is_empty() {
         files.desk.problem(&tree.place("behaviour"), "nothing is wanted", "at least one [behaviour.NAME]", "");
     }
+    let inverse = form
+        .inverse
+        .as_ref()
+        .and_then(|asked| inverse::read(asked, &form, &populations, quick, &tree, &mut files.desk));
     let attempts = if quick { form.quick_attempts.min(form.attempts) } else { form.attempts };
     let plan = Plan {
         form,
@@ -322,6 +331,7 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         filter,
         populations,
         sequential,
+        inverse,
         attempts,
         texts,
         sources: Sources::default(),
@@ -391,4 +401,5 @@ fn tried(plan: &Plan, tree: &Node, desk: &mut Desk) {
         }
     }
     claims::check(&plan.form.claim, &Results::example(plan), "claim", tree, desk);
+    inverse::check(plan, tree, desk);
 }

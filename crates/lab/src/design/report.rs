@@ -42,7 +42,12 @@ pub fn lines(results: &Results<'_>) -> Vec<String> {
 }
 
 /// The page.
-pub fn page(results: &Results<'_>, copies: &super::robustness::Copies, program: &str) -> Page {
+pub fn page(
+    results: &Results<'_>,
+    copies: &super::robustness::Copies,
+    streams: &super::inverse::Streams,
+    program: &str,
+) -> Page {
     let plan = results.plan;
     let mut figures = vec![Figure::Listing(rates(results))];
     figures.extend((plan.stages() > 0).then(|| Figure::Listing(stages(results))));
@@ -56,6 +61,7 @@ pub fn page(results: &Results<'_>, copies: &super::robustness::Copies, program: 
             rows: claims::rows(&plan.form.claim, results, plan.form.seed),
         }));
     }
+    figures.extend(super::inverse::figures(results, streams));
     figures.push(Figure::Listing(reasons(results)));
     figures.extend(values(results));
     figures.extend(super::robustness::figures(results, copies).into_iter().map(Figure::Lines));
@@ -65,7 +71,7 @@ pub fn page(results: &Results<'_>, copies: &super::robustness::Copies, program: 
     Page {
         title: plan.form.title.clone(),
         lead: paragraphs(&plan.form.about),
-        methods: methods(plan),
+        methods: methods(plan).into_iter().chain(super::inverse::methods(plan)).collect(),
         summary: summary(results),
         figures,
         tables: vec![csv(results)],

@@ -157,6 +157,11 @@ pub struct Outcome {
     pub value: f64,
 }
 
+impl Outcome {
+    /// Of a trial that was impossible.
+    pub const NONE: Self = Self { fitness: f64::NAN, value: f64::NAN };
+}
+
 /// What came of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tried {

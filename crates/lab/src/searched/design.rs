@@ -1,16 +1,15 @@
 //! A design: its environments as drawings, how each came about, and the group in it.
 
 use super::{At, Searched, Watched, drawing, rounded};
+use crate::design::execute::{self, Known};
 use crate::design::export::environment;
-use crate::design::results::{Results, Share, Trials};
-use crate::design::robustness::{self, Copies};
-use crate::design::{Plan, execute, export, report};
+use crate::design::results::{Results, Share};
+use crate::design::{Plan, export, report, robustness};
 use crate::environment::candidates::Source;
 use crate::live::LiveError;
 use crate::report::{Drawing, Page, Stroke, bounds};
 use crate::store::StoreError;
 use serde_json::{Value as Json, json};
-use std::collections::BTreeMap;
 use std::path::Path;
 use terrain::Construct;
 
@@ -23,8 +22,7 @@ const STEPS: usize = 200;
 pub struct Designed {
     plan: Plan,
     survey: crate::design::plan::Survey,
-    trials: BTreeMap<u64, Vec<Trials>>,
-    copies: Copies,
+    known: Known,
 }
 
 impl Designed {
@@ -33,9 +31,9 @@ impl Designed {
     /// # Errors
     /// A folder that holds none, or one that cannot be read.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
-        let (plan, trials, copies) = execute::look(path)?;
+        let (plan, known) = execute::look(path)?;
         let survey = plan.survey().map_err(StoreError::Refused)?;
-        Ok(Self { plan, survey, trials, copies })
+        Ok(Self { plan, survey, known })
     }
     fn drawn(&self, construct: &Construct) -> Drawing {
         let mut drawing = report::of_environment(&environment(&self.plan, construct), String::new());
@@ -72,7 +70,7 @@ impl Searched for Designed {
         let rates = |attempt: u64| -> Json {
             let of = |behaviour: usize| -> Vec<Json> {
                 let share = |group: usize| {
-                    let trials = self.trials.get(&attempt).and_then(|all| all.get(group));
+                    let trials = self.known.trials.get(&attempt).and_then(|all| all.get(group));
                     trials.map_or(Json::Null, |trials| {
                         let share = Share::of(&trials.built, behaviour, plan.form.success);
                         json!([share.successes, share.trials])
@@ -134,18 +132,18 @@ impl Searched for Designed {
         Ok(Watched::Scenario { name, text: export::scenario(plan, population, construct, seed, &title), seed: None })
     }
     fn page(&self, program: &str) -> Page {
-        let results = Results::new(&self.plan, self.survey.clone(), self.trials.clone());
+        let results = Results::new(&self.plan, self.survey.clone(), self.known.trials.clone());
         // copies of environments that were the best of fewer candidates are left out
         let wanted = robustness::copies(&results).into_iter();
-        let copies = wanted.filter_map(|copy| Some((copy, *self.copies.get(&copy)?))).collect();
-        report::page(&results, &copies, program)
+        let copies = wanted.filter_map(|copy| Some((copy, *self.known.copies.get(&copy)?))).collect();
+        report::page(&results, &copies, &self.known.streams, program)
     }
     fn telling(&self) -> Vec<At> {
         let plan = &self.plan;
         // the best environment for each group, by the first behaviour
         let best = |population: usize| {
             let rate = |(place, (attempt, _)): (usize, &(u64, Construct))| {
-                let trials = self.trials.get(attempt)?.get(population)?;
+                let trials = self.known.trials.get(attempt)?.get(population)?;
                 let share = Share::of(&trials.built, 0, plan.form.success);
                 (share.trials > 0).then(|| (place, share.rate()))
             };
