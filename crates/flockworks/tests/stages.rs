@@ -1,4 +1,4 @@
-//! Hierarchical schemas through the program itself: stages alone and together, rejections, threads and stops, mistakes.
+//! Hierarchical schemas and doors through the program itself: stages alone and together, rejections, threads and stops, mistakes.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::path::{Path, PathBuf};
@@ -112,6 +112,67 @@ fn stages_are_tried_alone_and_together() {
     let wanted = ["--set", "candidates.stages.1.handover.groups=[\"near\"]", "--out", "wanted"];
     let told = done(&folder, &[&["run", "walkers.toml"], &never[..], &wanted[..]].concat());
     assert!(told.contains("two, group: alone 100.0 %"), "{told}");
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+/// A walker stands before a door until it has been there for a while.
+const DOOR: &str = r#"
+kind = "design"
+title = "A door"
+attempts = 1
+trials = 2
+workspace.base.empty = { units = "metres" }
+workspace.region.hall.box = { low = [-1, -1], high = [0, 1] }
+door.gate = { wall = [0, -5, 0, 5], opens = { when = "share_in(hall) >= 1", sustained = 20 } }
+candidates.schema = { id = "funnel", at = { mouth = 2, neck = 2, chute = 1 } }
+behaviour.through.score.binary = { when = "centroid_x >= 1", within = 90 }
+[scenario]
+time.duration = 10
+[scenario.units]
+length = "m"
+time = "s"
+[scenario.space]
+dimensions = 2
+edges = "open"
+[scenario.group.walker]
+count = 1
+physics = { radius = 0.2, contact = "slide" }
+model.composed = { motion = "direction", speed = 1, terms = [{ travel = { direction = [1, 0] } }] }
+start = { place.points = [[-2, 0]], heading.along = [1, 0] }
+"#;
+
+#[test]
+fn doors_open_and_shut_on_conditions() {
+    let folder = folder("doors");
+    std::fs::write(folder.join("door.toml"), DOOR).unwrap();
+    let run = |set: &[&str], out: &str| done(&folder, &[&["run", "door.toml", "--out", out], set].concat());
+    assert!(run(&[], "opens").contains("through, group: 100.0 %"));
+    // inside from step 10 on, so that the door goes with step 29; from before it to 1 it takes 12 steps more
+    assert!(run(&["--set", "behaviour.through.score.binary.within=41"], "soon").contains("through, group: 0.0 %"));
+    let never = "door.gate.opens.when=\"share_in(hall) > 1\"";
+    assert!(run(&["--set", never], "never").contains("through, group: 0.0 %"));
+    // the exported trial is the same: the door goes at the time at which it went
+    let text = std::fs::read_to_string(folder.join("opens/environments/through-group-0.toml")).unwrap();
+    assert!(text.contains("disappears = 2.9"), "{text}");
+    done(&folder, &["run", "opens/environments/through-group-0.toml", "--out", "again"]);
+    done(&folder, &["export", "again", "--to", "csv"]);
+    let table = std::fs::read_to_string(folder.join("again/trajectory.csv")).unwrap();
+    let last: Vec<f64> =
+        table.lines().last().unwrap().split(',').map(|word| word.parse().unwrap_or(f64::NAN)).collect();
+    // 7.1 of ten seconds are left, from where it touched the door
+    assert!((last[5] - (7.1 - 0.2)).abs() < 0.05, "{last:?}");
+    for (from, to, told) in [
+        ("sustained = 20 } }", "sustained = 20 }, opened = {} }", "did you mean `opens`"),
+        (", opens = { when = \"share_in(hall) >= 1\", sustained = 20 } }", " }", "neither opens nor shuts"),
+        ("wall = [0, -5, 0, 5]", "wall = [0, -5, 0, -5]", "the door has no length"),
+        ("share_in(hall)", "share_in(hull)", "did you mean `hall`"),
+    ] {
+        std::fs::write(folder.join("wrong.toml"), DOOR.replace(from, to)).unwrap();
+        let output = flockworks(&folder, &["check", "wrong.toml"]);
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{to}");
+        assert!(text.contains(told) && text.contains("wrong.toml:"), "{to}: {text}");
+    }
     std::fs::remove_dir_all(folder).unwrap();
 }
 
