@@ -370,11 +370,11 @@ impl<R: Scalar> Task<R> for ByAxes<'_, R> {
         let first_hidden = if law.avoid_blind { AVOIDANCE } else { ALIGNMENT };
         for block in 0..blocks {
             let asked = (first_hidden..=ATTRACTION).fold(0, |asked, set| asked | u32::from(seen.marks[set][block]));
-            if asked == 0 {
-                continue;
-            }
             let mut visible = 0;
             for part in (0..BLOCK).step_by(L::WIDTH) {
+                if asked >> part & mask_of(L::WIDTH) == 0 {
+                    continue;
+                }
                 let (within, hidden) = axes.tell::<L>(&seen.several::<L>(block * BLOCK + part).0);
                 visible |= within.bits() << part;
                 let mut unsure = !(within.bits() | hidden.bits()) & mask_of(L::WIDTH) & asked >> part;
