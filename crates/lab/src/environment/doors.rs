@@ -28,8 +28,10 @@ form! {
 pub struct Door {
     /// Where it is while it is shut.
     pub wall: Segment,
-    opens: Option<Behaviour>,
-    shuts: Option<Behaviour>,
+    /// It is shut until this holds; none: it begins open.
+    pub opens: Option<Behaviour>,
+    /// From when it is open: until this holds; none: it stays open.
+    pub shuts: Option<Behaviour>,
 }
 
 /// A door that has opened or shut.
@@ -126,45 +128,5 @@ impl<'a> Guarded<'a> {
             *watch = if shut { None } else { door.shuts.as_ref().map(Behaviour::watch) };
         }
         now
-    }
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "tests")]
-mod tests {
-    use super::*;
-    use measure::behaviours::Signal;
-    use space::Vector;
-
-    fn beyond(x: f64) -> Option<Behaviour> {
-        let score = Score::Binary(Condition::at_least(Signal::Centroid(0), x));
-        Some(Behaviour { name: "door".into(), score })
-    }
-    fn moved(opens: Option<Behaviour>, shuts: Option<Behaviour>) -> (Vec<Moved>, Vec<Obstacle>) {
-        let doors = [Door { wall: Segment::new([0.0, 0.0], [1.0, 0.0]), opens, shuts }];
-        let mut guarded = Guarded::new(&doors);
-        for step in 0..10 {
-            let at = [Some(Vector([f64::from(step), 0.0]))];
-            guarded.step(&Moment { positions: &at, velocities: &at, types: &[] }, 0.5 * f64::from(step));
-        }
-        let written = doors[0].written(guarded.moved.iter().copied());
-        (guarded.moved, written)
-    }
-
-    #[test]
-    fn doors_open_and_shut_once() {
-        let times = |list: &[Obstacle]| list.iter().map(|one| (one.appears, one.disappears)).collect::<Vec<_>>();
-        let (events, written) = moved(beyond(3.0), None);
-        assert_eq!(events, [Moved { door: 0, time: 1.5, shut: false }]);
-        assert_eq!(times(&written), [(None, Some(1.5))]);
-        let (events, written) = moved(None, beyond(3.0));
-        assert_eq!(events, [Moved { door: 0, time: 1.5, shut: true }]);
-        assert_eq!(times(&written), [(Some(1.5), None)]);
-        // it is open for a step at least
-        let (events, written) = moved(beyond(3.0), beyond(2.0));
-        assert_eq!(events.len(), 2);
-        assert_eq!(times(&written), [(None, Some(1.5)), (Some(2.0), None)]);
-        let (events, written) = moved(beyond(30.0), beyond(2.0));
-        assert_eq!((events.len(), times(&written)), (0, vec![(None, None)]));
     }
 }
