@@ -149,25 +149,48 @@ pub fn run(
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(&[Option<Point>]),
 ) -> Result<Option<Tried>, String> {
+    let mut watches: Vec<Watch> = behaviours.iter().map(Behaviour::watch).collect();
+    let mut judge = |moment: &Moment<'_>| {
+        see(moment.positions);
+        watches.iter_mut().filter(|watch| !watch.settled()).for_each(|watch| watch.step(moment));
+        watches.iter().all(Watch::settled)
+    };
+    let steps = follow(scenario, population, seed, stop, &mut judge)?;
+    Ok(steps.map(|steps| {
+        let outcomes = watches.iter().zip(behaviours).map(|(watch, behaviour)| outcome(watch, behaviour)).collect();
+        Tried { steps, outcomes }
+    }))
+}
+
+/// Runs a trial whose every moment is shown to `see`, until it says that it has seen enough or the time is over; the steps made,
+/// none where it was stopped.
+///
+/// # Errors
+/// What this seed makes impossible, in a sentence.
+pub fn follow(
+    scenario: &Scenario,
+    population: &Population,
+    seed: u64,
+    stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(&Moment<'_>) -> bool,
+) -> Result<Option<u64>, String> {
     match scenario.precision {
-        Precision::Single => tried::<f32>(scenario, population, behaviours, seed, stop, see),
-        Precision::Double => tried::<f64>(scenario, population, behaviours, seed, stop, see),
+        Precision::Single => followed::<f32>(scenario, population, seed, stop, see),
+        Precision::Double => followed::<f64>(scenario, population, seed, stop, see),
     }
 }
 
-fn tried<R: Scalar>(
+fn followed<R: Scalar>(
     scenario: &Scenario,
     population: &Population,
-    behaviours: &[Behaviour],
     seed: u64,
     stop: &dyn Fn() -> bool,
-    see: &mut dyn FnMut(&[Option<Point>]),
-) -> Result<Option<Tried>, String>
+    see: &mut dyn FnMut(&Moment<'_>) -> bool,
+) -> Result<Option<u64>, String>
 where
     Models: Catalogue<R, 2>,
 {
     let mut world = build::world::<R, 2>(scenario, seed, 1)?;
-    let mut watches: Vec<Watch> = behaviours.iter().map(Behaviour::watch).collect();
     let members = population.members();
     let (mut positions, mut velocities) = (vec![None; members], vec![None; members]);
     loop {
@@ -179,15 +202,11 @@ where
             positions[id] = wide(frame.columns.position(row)).filter(|_| lives);
             velocities[id] = wide(frame.columns.velocity(row)).filter(|_| lives);
         }
-        see(&positions);
         let moment = Moment { positions: &positions, velocities: &velocities, types: &population.types };
-        for watch in watches.iter_mut().filter(|watch| !watch.settled()) {
-            watch.step(&moment);
-        }
+        let enough = see(&moment);
         let step = world.step_number();
-        if step == population.steps || watches.iter().all(Watch::settled) {
-            let outcomes = watches.iter().zip(behaviours).map(|(watch, behaviour)| outcome(watch, behaviour)).collect();
-            return Ok(Some(Tried { steps: step, outcomes }));
+        if step == population.steps || enough {
+            return Ok(Some(step));
         }
         if step.is_multiple_of(ASKED) && stop() {
             return Ok(None);
