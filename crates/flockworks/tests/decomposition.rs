@@ -63,6 +63,17 @@ fn a_decomposition_is_the_same_for_any_threads_and_stops_and_its_primitives_are_
     assert!(files("one") == files("torn"), "a stop changes nothing");
     done(&folder, &["report", "one"]);
     assert!(files("one") == files("three"));
+    // clusters may be made in another way from what is there
+    let set = ["--set", "offsets=2", "--set", "cluster={ dbscan = { radius = 1.5 } }"];
+    let again = done(&folder, &[&["run", "bend.toml", "--quick", "--out", "three"], &set[..]].concat());
+    assert!(again.contains("0 approaches in"), "{again}");
+    for file in std::fs::read_dir(folder.join("three/primitives")).unwrap() {
+        let name = file.unwrap().file_name().into_string().unwrap();
+        assert!(
+            again.contains(&format!("{}:", name.trim_end_matches(".toml"))),
+            "{name} is of another clustering: {again}"
+        );
+    }
     // what is found can be built with
     let grammar = names.iter().find(|name| name.starts_with("primitives/")).unwrap();
     let bend = std::fs::read_to_string(folder.join("bend.toml")).unwrap();

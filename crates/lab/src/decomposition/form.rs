@@ -158,8 +158,10 @@ form! {
         set: Anything = [empty()], "", Any;
         /// Headings at which each fragment is approached, evenly all around.
         headings: usize = [8usize], "1", Within(1.0, 360.0);
-        /// Lateral offsets of each approach, evenly over the width of the window.
+        /// Lateral offsets of each approach.
         offsets: usize = [5usize], "1", Within(1.0, 1000.0);
+        /// Over which share of the window's width they lie, in the middles of as many equal parts.
+        span: f64 = [0.5], "1", Within(0.0, 2.0);
         /// Trials of each approach and offset.
         trials: usize = [4usize], "1", Within(1.0, 100_000.0);
         /// Trials with `--quick`.

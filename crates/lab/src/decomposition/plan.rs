@@ -94,7 +94,7 @@ impl Plan {
     }
     /// The lateral offset of a number, length, to the left of the approach.
     pub fn offset(&self, width: f64, number: usize) -> f64 {
-        width * ((number as f64 + 0.5) / self.form.offsets as f64 - 0.5)
+        width * self.form.span * ((number as f64 + 0.5) / self.form.offsets as f64 - 0.5)
     }
     /// A trial with a fragment that is approached at a heading and an offset. The group begins as its scenario says; the fragment is put
     /// in its way.

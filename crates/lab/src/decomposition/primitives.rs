@@ -3,7 +3,7 @@
 
 use super::results::{Cluster, Results};
 use super::tables::{ATTRIBUTES, attributes, range};
-use crate::design::export::environment_files;
+use crate::design::export::{ENVIRONMENTS, environment_files};
 use crate::file::write::toml;
 use crate::file::{Node, Span, Tree};
 use crate::store::StoreError;
@@ -19,6 +19,13 @@ pub const PRIMITIVES: &str = "primitives";
 /// # Errors
 /// Where the system refuses.
 pub fn write(folder: &Folder, results: &Results<'_>) -> Result<(), StoreError> {
+    // clusters made in another way have other names
+    for old in [PRIMITIVES, ENVIRONMENTS] {
+        let old = folder.file(old);
+        if old.exists() {
+            std::fs::remove_dir_all(&old).map_err(|error| StoreError::io("remove the folder", &old, error))?;
+        }
+    }
     let below = folder.file(PRIMITIVES);
     std::fs::create_dir_all(&below).map_err(|error| StoreError::io("make the folder", &below, error))?;
     let plan = results.plan;

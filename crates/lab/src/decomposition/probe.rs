@@ -1,6 +1,8 @@
 //! What a trial with a fragment comes to: where members leave the arena, how far they have turned, and what became of the group.
 
-use measure::behaviours::{Membership, blocks::entropy_ratio};
+use measure::behaviours::blocks::entropy_ratio;
+use measure::near::linked;
+use space::Space;
 use terrain::Point;
 use terrain::fragments::turn;
 
@@ -23,9 +25,9 @@ pub const NUMBERS: [(&str, &str, &str); 12] = [
     (
         "along",
         "1",
-        "Change of the standard deviation along the mean way out until then, in shares of the spread at the start.",
+        "Change of the standard deviation along the mean way of each group until then, in shares of the spread at the start.",
     ),
-    ("across", "1", "The same across the way out."),
+    ("across", "1", "The same across their ways."),
     ("transit", "steps/length", "Mean number of steps until a member leaves, per diameter of the arena."),
 ];
 
@@ -119,15 +121,20 @@ impl Watch {
         }
         let last = self.ways.iter().map(Vec::len).max().unwrap_or(0).saturating_sub(1);
         let step = self.compared.unwrap_or(last);
-        let there: Vec<Point> = self.ways.iter().filter_map(|way| way.get(step)).copied().collect();
-        let began: Vec<Point> = self.ways.iter().filter_map(|way| way.first()).copied().collect();
+        let at = |step: usize| -> (Vec<Point>, Vec<Point>) {
+            let there = (0..self.ways.len()).filter_map(|member| Some((member, *self.ways[member].get(step)?)));
+            there.map(|(member, place)| (place, self.direction(member, step).unwrap_or(approach))).unzip()
+        };
+        let ((began, _), (there, ways)) = (at(0), at(step));
         if there.is_empty() {
             return;
         }
-        let sizes = Membership::within(link).sizes(&there);
-        let ways = (0..self.ways.len()).filter_map(|member| self.direction(member, step));
-        let way = ways.fold(Point::ZERO, |sum, way| sum + way).unit_or(approach);
-        let (before, after) = (deviations(&began, approach), deviations(&there, way));
+        let groups = linked(&Space::open(), &there, link);
+        let mut sizes = vec![0; groups.iter().max().map_or(0, |most| most + 1)];
+        groups.iter().for_each(|&group| sizes[group] += 1);
+        let start = linked(&Space::open(), &began, link);
+        let before = deviations(&began, &vec![approach; began.len()], &start);
+        let after = deviations(&there, &ways, &groups);
         let spread = (before[0] * before[0] + before[1] * before[1]).sqrt();
         sum.trials += 1.0;
         sum.groups += sizes.len() as f64;
@@ -144,14 +151,21 @@ impl Watch {
     }
 }
 
-/// Standard deviations of points along and across a direction.
-fn deviations(points: &[Point], way: Point) -> [f64; 2] {
-    [way, way.left()].map(|axis| {
-        let first = points.first().map_or(0.0, |point| point.dot(axis));
-        let off: Vec<f64> = points.iter().map(|point| point.dot(axis) - first).collect();
-        let mean = off.iter().sum::<f64>() / off.len().max(1) as f64;
-        (off.iter().map(|off| (off - mean) * (off - mean)).sum::<f64>() / off.len().max(1) as f64).sqrt()
-    })
+/// Standard deviations along and across the mean way of each group, about its middle, over all members. That groups go apart is told by
+/// their number: how wide each is would be lost in it.
+fn deviations(places: &[Point], ways: &[Point], groups: &[usize]) -> [f64; 2] {
+    let mut squares = [0.0; 2];
+    for group in 0..groups.iter().max().map_or(0, |most| most + 1) {
+        let own: Vec<usize> = (0..places.len()).filter(|&member| groups[member] == group).collect();
+        let way = own.iter().fold(Point::ZERO, |sum, &member| sum + ways[member]).unit_or(Point::axis(0));
+        for (axis, square) in [way, way.left()].into_iter().zip(&mut squares) {
+            let first = places[own[0]].dot(axis);
+            let off: Vec<f64> = own.iter().map(|&member| places[member].dot(axis) - first).collect();
+            let mean = off.iter().sum::<f64>() / off.len() as f64;
+            *square += off.iter().map(|off| (off - mean) * (off - mean)).sum::<f64>();
+        }
+    }
+    squares.map(|square| (square / places.len().max(1) as f64).sqrt())
 }
 
 /// What trials came to, added up.
@@ -182,89 +196,5 @@ impl Sum {
         let rest = [self.groups / t, self.entropy / t, self.along / t, self.across / t, self.transit / m];
         let [groups, entropy, along, across, transit] = rest;
         Some([mean, spread, left, right, through, back, stay, groups, entropy, along, across, transit])
-    }
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "tests")]
-mod tests {
-    use super::*;
-    use space::Vector;
-
-    /// The descriptor of ways of one member each, by their corners, in an arena of radius 4 entered along x.
-    fn of(ways: &[&[[f64; 2]]]) -> Descriptor {
-        let arena = Arena { centre: Vector([0.0, 0.0]), radius: 4.0, approach: Vector([1.0, 0.0]), link: 1.5 };
-        let fine = |way: &[[f64; 2]]| -> Vec<Point> {
-            let legs = way.windows(2).flat_map(|two| {
-                (0..40).map(move |k| Vector(two[0]) + (Vector(two[1]) - Vector(two[0])) * (f64::from(k) / 40.0))
-            });
-            legs.chain(way.last().map(|end| Vector(*end))).collect()
-        };
-        let ways: Vec<Vec<Point>> = ways.iter().map(|way| fine(way)).collect();
-        let mut watch = Watch::new(arena, ways.len());
-        for step in 0..ways.iter().map(Vec::len).max().unwrap() {
-            let now: Vec<Option<Point>> = ways.iter().map(|way| way.get(step).copied()).collect();
-            if watch.step(&now) {
-                break;
-            }
-        }
-        let mut sum = Sum::default();
-        watch.add_to(&mut sum);
-        sum.descriptor().unwrap()
-    }
-
-    fn number(of: &Descriptor, name: &str) -> f64 {
-        of[place(name)]
-    }
-
-    #[test]
-    fn a_straight_pass_turns_nobody_and_all_go_through() {
-        let straight = of(&[&[[-4., 0.], [5., 0.]], &[[-4., 1.], [5., 1.]]]);
-        let expected = [("turn", 0.0), ("turn_spread", 0.0), ("through", 1.0), ("groups", 1.0), ("entropy", 0.0)];
-        for (name, value) in expected.into_iter().chain([("along", 0.0), ("across", 0.0), ("stay", 0.0)]) {
-            assert!(
-                number(&straight, name).abs() - value < 1e-12 && number(&straight, name) >= value - 1e-12,
-                "{name}"
-            );
-        }
-        // 36 of 40 steps are 8 long and 9 of a diameter of 8: the first beyond the rim
-        assert!((number(&straight, "transit") - 36.0 / 8.0).abs() < 0.2);
-    }
-
-    #[test]
-    fn turns_sides_and_those_who_stay() {
-        let corner = of(&[&[[-4., 0.], [0., 0.], [0., 5.]]]);
-        assert!((number(&corner, "turn") - 90.0).abs() < 1e-9 && number(&corner, "left") == 1.0);
-        let back = of(&[&[[-4., 0.], [0., 0.], [-5., 0.1]]]);
-        assert!(number(&back, "back") == 1.0 && number(&back, "turn").abs() > 170.0);
-        let stuck = of(&[&[[-4., 0.], [0., 0.]]]);
-        assert_eq!((number(&stuck, "stay"), number(&stuck, "through")), (1.0, 0.0));
-        let split = of(&[&[[-4., 0.2], [0., 0.2], [0., 5.]], &[[-4., -0.2], [0., -0.2], [0., -5.]]]);
-        assert!((number(&split, "turn")).abs() < 1e-9 && (number(&split, "turn_spread") - 90.0).abs() < 1e-9);
-        assert_eq!([number(&split, "groups"), number(&split, "entropy"), number(&split, "left")], [2.0, 1.0, 0.5]);
-        let narrowed = of(&[&[[-4., 1.], [0., 0.1], [5., 0.1]], &[[-4., -1.], [0., -0.1], [5., -0.1]]]);
-        assert!((number(&narrowed, "across") + 0.9).abs() < 1e-9, "{}", number(&narrowed, "across"));
-    }
-
-    #[test]
-    fn what_is_mirrored_swaps_left_and_right() {
-        let ways: [&[[f64; 2]]; 3] = [
-            &[[-4., 0.3], [1., 0.], [2., 5.]],
-            &[[-4., -0.8], [0.5, -0.2], [-1., -6.]],
-            &[[-4., 0.1], [0., 1.], [6., 2.]],
-        ];
-        let mirrored: Vec<Vec<[f64; 2]>> = ways.iter().map(|way| way.iter().map(|[x, y]| [*x, -y]).collect()).collect();
-        let mirrored: Vec<&[[f64; 2]]> = mirrored.iter().map(Vec::as_slice).collect();
-        let (one, other) = (of(&ways), of(&mirrored));
-        for (name, ..) in NUMBERS {
-            let twin = match name {
-                "left" => "right",
-                "right" => "left",
-                same => same,
-            };
-            let sign = if name == "turn" { -1.0 } else { 1.0 };
-            assert!((number(&one, name) - sign * number(&other, twin)).abs() < 1e-9, "{name}");
-        }
-        assert!(number(&one, "left") > 0.0);
     }
 }

@@ -413,12 +413,13 @@ fn methods(results: &Results<'_>) -> Vec<String> {
         words.extend([
         format!(
             "A window of {} {} slides along the lines of the construct, a quarter of its width at a time; what of the construct lies inside \
-             is a fragment. Each stands alone in an arena and is approached by {} ({} steps at most): {}, in all {} trials with those in \
-             empty arenas.",
+             is a fragment. Each stands alone in an arena and is approached by {} ({} steps at most), with offsets over {} of the window: {}, \
+             in all {} trials with those in empty arenas.",
             widths.join(" and "),
             unit(plan),
             models.join(" and "),
             plan.population.steps,
+            plan.form.span,
             plan.cost(),
             plan.all_trials()
         ),

@@ -331,25 +331,3 @@ impl Data for Results<'_> {
         }))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_effect_that_exceeds_its_size_most_gives_the_name() {
-        let sizes = super::super::form::defaults().1;
-        let of = |given: &[(&str, f64)]| {
-            let mut numbers = [0.0; NUMBERS.len()];
-            given.iter().for_each(|(name, value)| numbers[place(name)] = *value);
-            Effect::dominant(&numbers, &sizes)
-        };
-        assert_eq!(of(&[]), Effect::None);
-        assert_eq!(of(&[("turn", 29.0), ("across", -0.2)]), Effect::None);
-        assert_eq!(of(&[("turn", 31.0), ("across", -0.2)]), Effect::TurnLeft);
-        assert_eq!(of(&[("turn", -31.0), ("across", -0.5)]), Effect::Narrowing);
-        assert_eq!(of(&[("turn", -80.0), ("across", -0.5)]), Effect::TurnRight);
-        assert_eq!(of(&[("groups", 0.9), ("back", 0.6)]), Effect::Splitting);
-        assert_eq!(of(&[("back", 0.6), ("across", 3.0)]), Effect::TurningBack);
-    }
-}
