@@ -18,8 +18,8 @@ words! {
 form! {
     /// Average linkage, cut where the mean silhouette is greatest.
     pub struct Linkage {
-        /// Fewest clusters. By default as many as there are effects to be told apart.
-        least: usize = [6usize], "1", Within(2.0, 1000.0);
+        /// Fewest clusters.
+        least: usize = [2usize], "1", Within(2.0, 1000.0);
         /// Most clusters.
         most: usize = [12usize], "1", Within(2.0, 1000.0);
     }
@@ -121,7 +121,7 @@ pub(super) fn vary() -> Vary {
 
 /// How clusters are made and named where a file does not say.
 pub(super) fn defaults() -> (Clustering, Effects) {
-    let linkage = Linkage { least: 6, most: 12 };
+    let linkage = Linkage { least: 2, most: 12 };
     (Clustering::AverageLinkage(linkage), Effects { turn: 30.0, narrowing: 0.25, splitting: 0.5, back: 0.5 })
 }
 
