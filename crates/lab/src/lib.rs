@@ -1,5 +1,6 @@
 //! `lab`: files that say what they are, the run store, executors, reports. It knows nothing of HTTP.
 
+pub mod decomposition;
 pub mod design;
 pub mod environment;
 pub mod evolution;

@@ -28,6 +28,8 @@ mod draws;
 mod error;
 pub mod expression;
 pub mod filters;
+pub mod fit;
+pub mod fragments;
 pub mod generate;
 pub mod geometry;
 pub mod grammar;

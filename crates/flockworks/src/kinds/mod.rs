@@ -1,6 +1,7 @@
 //! The kinds of files that can be run: one file and one line of the list each. The verbs `run`, `check`, `new`, `schema`,
 //! `view` and `report` are made from the list.
 
+mod decomposition;
 mod design;
 mod evolution;
 mod formation;
@@ -31,6 +32,7 @@ pub const LIST: &[&dyn Kind] = &[
     &design::Design,
     &map::Map,
     &optimisation::Optimisation,
+    &decomposition::Decomposition,
     &formation::Formation,
     &tracks::Tracks,
 ];

@@ -16,10 +16,23 @@ pub(super) fn begin(input: &mut Input, options: &RunOptions, one: &str) -> Resul
     if let Some(option) = options.study.given() {
         return wrong(format!("`{}` is {one}, and {option} is for studies", input.name));
     }
+    Ok(seeded(input, options))
+}
+
+/// As [`begin`], where `--plan` is known.
+pub(super) fn begin_or_plan(input: &mut Input, options: &RunOptions, one: &str) -> Result<usize, Fault> {
+    if let Some(option) = options.study.beside_plan() {
+        return wrong(format!("`{}` is {one}, and {option} is for studies", input.name));
+    }
+    Ok(seeded(input, options))
+}
+
+/// Puts a seed over the file; the number of threads.
+fn seeded(input: &mut Input, options: &RunOptions) -> usize {
     if let Some(seed) = options.seed {
         input.sets.push(format!("seed={seed}"));
     }
-    Ok(options.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from)))
+    options.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
 }
 
 /// What became of a run, and its exit code: where it was stopped, what is said of that; else what was `made`, with its lines.

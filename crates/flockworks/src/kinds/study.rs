@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Studies")]
 pub struct StudyOptions {
-    /// Say what would be run, how long it would take and how much disk it needs, and run nothing.
+    /// Say what would be run, how long it would take and how much disk it needs, and run nothing; also of decompositions.
     #[arg(long)]
     pub plan: bool,
     /// Only these cells: numbers and ranges as `3,5-9`, or levels as `variant=prob,N=6`.
@@ -49,8 +49,11 @@ pub(super) const MUST_HOLD: &str = "--must-hold";
 impl StudyOptions {
     /// The first option that was given, for kinds that have none of them.
     pub(super) fn given(&self) -> Option<&'static str> {
+        if self.plan { Some("--plan") } else { self.beside_plan() }
+    }
+    /// The first option but `--plan` that was given.
+    pub(super) fn beside_plan(&self) -> Option<&'static str> {
         let given = [
-            (self.plan, "--plan"),
             (self.cells.is_some(), "--cells"),
             (self.trials.is_some(), "--trials"),
             (self.shard.is_some(), "--shard"),

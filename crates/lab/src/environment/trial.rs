@@ -221,27 +221,70 @@ pub fn relayed(
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(&[Option<Point>]),
 ) -> Result<Option<Told>, String> {
+    let mut watches: Vec<Watch> = wanted.behaviours.iter().map(Behaviour::watch).collect();
+    let mut following = wanted.relay.as_ref().map(Relay::follow);
+    let mut judge = |moment: &Moment<'_>| {
+        see(moment.positions);
+        watches.iter_mut().filter(|watch| !watch.settled()).for_each(|watch| watch.step(moment));
+        let mut settled = watches.iter().all(Watch::settled);
+        if let Some(following) = &mut following {
+            following.step(moment);
+            settled &= following.settled();
+        }
+        settled
+    };
+    let Some((steps, moved)) = among_doors(scenario, population, &wanted.doors, seed, stop, &mut judge)? else {
+        return Ok(None);
+    };
+    let mut outcomes = following.as_ref().map_or_else(Vec::new, |following| following.outcomes());
+    outcomes.extend(watches.iter().zip(&wanted.behaviours).map(|(watch, behaviour)| outcome(watch, behaviour)));
+    let handed = following.map_or_else(Vec::new, |following| following.handed);
+    Ok(Some(Told { tried: Tried { steps, outcomes }, handed, moved }))
+}
+
+/// Runs a trial whose every moment is shown to `see`, until it says that it has seen enough or the time is over; the steps made,
+/// none where it was stopped.
+///
+/// # Errors
+/// What this seed makes impossible, in a sentence.
+pub fn follow(
+    scenario: &Scenario,
+    population: &Population,
+    seed: u64,
+    stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(&Moment<'_>) -> bool,
+) -> Result<Option<u64>, String> {
+    Ok(among_doors(scenario, population, &[], seed, stop, see)?.map(|(steps, _)| steps))
+}
+
+/// [`follow`] among doors; with what these did.
+fn among_doors(
+    scenario: &Scenario,
+    population: &Population,
+    doors: &[Door],
+    seed: u64,
+    stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(&Moment<'_>) -> bool,
+) -> Result<Option<(u64, Vec<Moved>)>, String> {
     match scenario.precision {
-        Precision::Single => tried::<f32>(scenario, population, wanted, seed, stop, see),
-        Precision::Double => tried::<f64>(scenario, population, wanted, seed, stop, see),
+        Precision::Single => followed::<f32>(scenario, population, doors, seed, stop, see),
+        Precision::Double => followed::<f64>(scenario, population, doors, seed, stop, see),
     }
 }
 
-fn tried<R: Scalar>(
+fn followed<R: Scalar>(
     scenario: &Scenario,
     population: &Population,
-    wanted: &Wanted,
+    doors: &[Door],
     seed: u64,
     stop: &dyn Fn() -> bool,
-    see: &mut dyn FnMut(&[Option<Point>]),
-) -> Result<Option<Told>, String>
+    see: &mut dyn FnMut(&Moment<'_>) -> bool,
+) -> Result<Option<(u64, Vec<Moved>)>, String>
 where
     Models: Catalogue<R, 2>,
 {
-    let (mut world, places) = with_doors::<R>(scenario, &wanted.doors, seed)?;
-    let mut watches: Vec<Watch> = wanted.behaviours.iter().map(Behaviour::watch).collect();
-    let mut following = wanted.relay.as_ref().map(Relay::follow);
-    let mut guarded = Guarded::new(&wanted.doors);
+    let (mut world, places) = with_doors::<R>(scenario, doors, seed)?;
+    let mut guarded = Guarded::new(doors);
     let members = population.members();
     let (mut positions, mut velocities) = (vec![None; members], vec![None; members]);
     loop {
@@ -253,22 +296,11 @@ where
             positions[id] = wide(frame.columns.position(row)).filter(|_| lives);
             velocities[id] = wide(frame.columns.velocity(row)).filter(|_| lives);
         }
-        see(&positions);
         let moment = Moment { positions: &positions, velocities: &velocities, types: &population.types };
-        for watch in watches.iter_mut().filter(|watch| !watch.settled()) {
-            watch.step(&moment);
-        }
-        let mut settled = watches.iter().all(Watch::settled);
-        if let Some(following) = &mut following {
-            following.step(&moment);
-            settled &= following.settled();
-        }
+        let enough = see(&moment);
         let step = world.step_number();
-        if step == population.steps || settled {
-            let mut outcomes = following.as_ref().map_or_else(Vec::new, |following| following.outcomes());
-            outcomes.extend(watches.iter().zip(&wanted.behaviours).map(|(watch, behaviour)| outcome(watch, behaviour)));
-            let handed = following.map_or_else(Vec::new, |following| following.handed);
-            return Ok(Some(Told { tried: Tried { steps: step, outcomes }, handed, moved: guarded.moved }));
+        if step == population.steps || enough {
+            return Ok(Some((step, guarded.moved)));
         }
         if step.is_multiple_of(ASKED) && stop() {
             return Ok(None);

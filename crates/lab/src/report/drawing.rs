@@ -2,6 +2,7 @@
 
 use super::escape::markup;
 use super::number::place;
+use super::palette::SERIES;
 use super::{Drawing, Drawings, Stroke};
 use core::fmt::Write;
 
@@ -45,6 +46,7 @@ pub(super) fn drawing(drawings: &Drawings, drawing: &Drawing) -> String {
             Stroke::Built => "built".to_owned(),
             Stroke::Structure => "structure".to_owned(),
             Stroke::Way(part) => format!("way t{}", part.min(&(TIMES - 1))),
+            Stroke::Series(number) => format!("series s{}", number % SERIES),
         };
         let _ = write!(svg, "<path class=\"{class}\" d=\"M{}", at(first));
         for point in rest {
@@ -74,6 +76,7 @@ pub(super) fn data(drawing: &Drawing) -> String {
             Stroke::Built => "built",
             Stroke::Structure => "structure",
             Stroke::Way(_) => "way",
+            Stroke::Series(_) => "series",
         };
         for [x, y] in points {
             let _ = writeln!(csv, "{what},{k},{x},{y},");

@@ -88,6 +88,8 @@ pub enum Stroke {
     Structure,
     /// The way of a member, in one of six parts of the time.
     Way(usize),
+    /// What belongs to a series of this number, in its colour.
+    Series(usize),
 }
 
 /// A drawing of a place in the plane.

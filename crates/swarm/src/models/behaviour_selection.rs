@@ -942,13 +942,7 @@ impl<R: Scalar> BehaviourSelection<R> {
     }
 
     #[inline(always)]
-    fn wished(
-        &self,
-        me: &mut Me<'_, R, 3>,
-        seen: &Percepts<'_, R, 3>,
-        sight: Sight<'_>,
-        draws: &Draws<'_>,
-    ) -> Wish<R> {
+    fn wished(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, sight: Sight<'_>, draws: &Draws<'_>) -> Wish<R> {
         let (theta, phi) = (me.own[THETA], me.own[PHI]);
         let counts = [AVOIDANCE, ALIGNMENT, ATTRACTION].map(|set| sight.count(set, seen.blocks()));
         let (mut away, mut obstacles) = (Vector::<R, 3>::ZERO, 0u32);
