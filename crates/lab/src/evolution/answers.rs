@@ -153,8 +153,9 @@ fn of_run_names(plan: &Plan) -> Vec<(String, String, String)> {
         OF_RUN.iter().map(|(name, about)| ((*name).to_owned(), (*about).to_owned(), String::new())).collect();
     for name in plan.kept() {
         let about = |what: &str| format!("{name}, {what}");
-        names.push((format!("{name}_end"), about("mean of the last tenth of the generations"), String::new()));
-        names.push((format!("{name}_lowest"), about("lowest mean of a generation"), String::new()));
+        let unit = || unit_of(plan, name);
+        names.push((format!("{name}_end"), about("mean of the last tenth of the generations"), unit()));
+        names.push((format!("{name}_lowest"), about("lowest mean of a generation"), unit()));
     }
     let end = |name: &str, about: &str, unit: &str| {
         (format!("{name}_end"), format!("{about}, mean of the last tenth of the generations"), unit.to_owned())
@@ -164,12 +165,18 @@ fn of_run_names(plan: &Plan) -> Vec<(String, String, String)> {
     names
 }
 
+/// The unit of what is kept under a name: that of the reading.
+pub(super) fn unit_of(plan: &Plan, name: &str) -> String {
+    let known = plan.readings.readings.iter().find(|(own, _)| own == name);
+    known.map(|(_, reading)| reading.unit.clone()).unwrap_or_default()
+}
+
 /// The same of a contender in a world.
 fn of_contender_names(plan: &Plan) -> Vec<(String, String, String)> {
     if plan.form.contest.is_none() {
         return Vec::new();
     }
-    let kept = plan.kept().into_iter().map(|name| (name.to_owned(), name.to_owned(), String::new()));
+    let kept = plan.kept().into_iter().map(|name| (name.to_owned(), name.to_owned(), unit_of(plan, name)));
     core::iter::once(("fitness".to_owned(), "Fitness".to_owned(), String::new())).chain(kept).collect()
 }
 

@@ -216,7 +216,7 @@ impl Course<'_> {
     fn kept(&self) -> Vec<Lines> {
         let plan = self.variants.first();
         let lines = |(k, name): (usize, &str)| {
-            let y = Axis { label: name.to_owned(), unit: String::new(), range: None };
+            let y = Axis { label: name.to_owned(), unit: answers::unit_of(plan, name), range: None };
             let about = match plan.shared {
                 Some(_) => format!("{} at the end of the world of a generation.", plan.form.keep.0[k].1),
                 None => "The mean of a generation.".to_owned(),
