@@ -281,7 +281,7 @@ fn without(plan: &Plan, there: &mut There, see: &mut See<'_>) -> Result<Option<O
     }
     let unit = Unit {
         key: (0, 0, Purpose::Control as u64, 0),
-        what: What::Construct(Construct::new(plan.workspace.workspace.units, Vec::new())),
+        what: What::Construct(plan.bare.clone()),
         purpose: (Purpose::Control, 0),
         trials: plan.form.control_trials,
     };

@@ -59,6 +59,8 @@ pub struct Plan {
     pub builder: String,
     /// What its constructs must be like.
     pub filter: Combined,
+    /// A construct of which nothing is built: markers alone, where one of its constructs has them.
+    pub bare: Construct,
     /// Values of its parameters; those of the axes are replaced.
     pub values: Vec<f64>,
     /// What is searched over.
@@ -173,12 +175,14 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         true => (form.quick_evaluations.min(form.evaluations), form.quick_runs.min(form.runs)),
         false => (form.evaluations, form.runs),
     };
-    let plan = Plan {
+    let bare = Construct::new(workspace.workspace.units, Vec::new());
+    let mut plan = Plan {
         form,
         workspace,
         schema,
         builder,
         filter,
+        bare,
         values,
         axes,
         domain,
@@ -190,7 +194,7 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         quick,
     };
     if files.desk.problems.is_empty() {
-        tried(&plan, &tree, files);
+        tried(&mut plan, &tree, files);
     }
     Some(plan)
 }
@@ -296,7 +300,7 @@ fn methods(files: &mut Files<'_>, form: &Optimisation, axes: &[SearchAxis], tree
 const LOOKED_AT: usize = 1000;
 
 /// Whether the searches can begin, and some point of the box gives a world in which the behaviour has a meaning.
-fn tried(plan: &Plan, tree: &Node, files: &mut Files<'_>) {
+fn tried(plan: &mut Plan, tree: &Node, files: &mut Files<'_>) {
     let desk = &mut files.desk;
     for (method, (name, _)) in plan.form.method.0.iter().enumerate() {
         if let Err(error) = Searcher::new(plan, method, 0) {
@@ -313,6 +317,7 @@ fn tried(plan: &Plan, tree: &Node, files: &mut Files<'_>) {
         desk.problem(&tree.place("axis"), what, "not possible", "");
         return;
     };
+    plan.bare.markers.clone_from(&construct.markers);
     match plan.behaviour(&construct, true) {
         Err(wrong) => desk.problem(&tree.place(&wrong.path), wrong.what, wrong.expected, wrong.help),
         Ok(behaviour) => {
