@@ -57,14 +57,14 @@ pub struct State {
 #[derive(Debug)]
 enum Waiting {
     Inside(Run),
-    When(Watch),
+    When(Box<Watch>),
 }
 
 impl Handover {
     fn wait(&self) -> Waiting {
         match self {
             Self::Inside { .. } => Waiting::Inside(Run::default()),
-            Self::When(behaviour) => Waiting::When(behaviour.watch()),
+            Self::When(behaviour) => Waiting::When(Box::new(behaviour.watch())),
         }
     }
     fn holds(&self, waiting: &mut Waiting, moment: &Moment<'_>) -> bool {

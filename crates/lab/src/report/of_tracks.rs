@@ -344,7 +344,7 @@ fn cell_maps(all: &[Analysed]) -> Vec<Figure> {
         // the first two coordinates follow the group
         let (across, up) = (card.fields[group + 1], card.fields[group + 2]);
         let mut by_unit: Vec<(String, Vec<&Analysed>)> = Vec::new();
-        for one in all.iter().filter(|one| listing(one, card).is_some_and(|listing| listing.len() > 0)) {
+        for one in all.iter().filter(|one| listing(one, card).is_some_and(|listing| !listing.is_empty())) {
             let unit = tables::unit_of(one, across.unit);
             match by_unit.iter_mut().find(|(known, _)| *known == unit) {
                 Some((_, list)) => list.push(one),

@@ -258,9 +258,8 @@ fn identified(
     see: &mut dyn FnMut(usize, usize) -> Option<Option<usize>>,
 ) -> Option<Identified> {
     let (questions, ending) = (&telling.questions, asked.ending);
-    let mut course = |choose: &dyn Fn(usize, &[f64]) -> usize| {
-        identify(questions, &asked.prior, ending, choose, |place, trial| see(place, trial))
-    };
+    let mut course =
+        |choose: &dyn Fn(usize, &[f64]) -> usize| identify(questions, &asked.prior, ending, choose, &mut *see);
     let all = questions.len();
     let seed = child_seed(plan.form.seed, UNKNOWN, number, 0);
     let drawn = |trial: usize, _: &[f64]| {
