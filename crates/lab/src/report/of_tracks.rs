@@ -422,7 +422,7 @@ fn cell_map(
     Some(Figure::Map(Map {
         title: card.title.into(),
         about: format!(
-            "The darker a cell, the more often members were found in it. {}; {}.",
+            "The darker a cell, the more often members were found in it: {}; {}.",
             words(card.definition),
             words(card.variant)
         ),
