@@ -1259,8 +1259,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         matches!(&self.stages.sensing, Sensing::Scanner(robot) if robot.association.is_some())
     }
 
-    /// Everything that comes before the law, and then what is to be done with it. `trace` is given by explanations alone; a
-    /// step is compiled without it.
+    /// Everything that comes before the law, and then what is to be done with it. `trace` is given by explanations alone.
     #[inline(always)]
     fn perceive<P: Perceiving<R, D>>(
         &self,
@@ -1331,22 +1330,9 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         found
     }
 
-    /// One decision outside a sweep. One code for a turn and for its explanation: half as much to compile.
+    /// One decision. The same code for sweeps, turns and explanations, so that it is compiled once.
     #[inline(never)]
     fn decision(
-        &self,
-        view: &View<'_, R, D>,
-        row: usize,
-        scratch: &mut Scratch<R, D>,
-        memory: Option<&mut Memory<R>>,
-        trace: Option<&mut Trace<R, D>>,
-    ) -> Motion<R, D> {
-        self.decide(view, row, scratch, memory, trace)
-    }
-
-    /// One decision.
-    #[inline(always)]
-    fn decide(
         &self,
         view: &View<'_, R, D>,
         row: usize,
@@ -1902,6 +1888,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         Some(NearItem { offset: view.space.offset(view.now.position(row), *place), item: item as u32 })
     }
 
+    /// [`Self::conclude`] for motions that are not performed side by side: compiled once and not for each width of lanes.
     #[inline(never)]
     fn concluded(
         &self,
