@@ -164,11 +164,6 @@ pub trait Schema: Send + Sync {
     /// A workspace without the anchors it needs.
     fn build(&self, values: &[f64], workspace: &Workspace, draws: &Draws) -> Result<Construct, TerrainError>;
 
-    /// Where a construct comes from; `plain` says what is the same for all schemas.
-    fn provenance(&self, _: &Construct, plain: Provenance) -> Provenance {
-        plain
-    }
-
     /// The construct of these values in a workspace, with its provenance.
     ///
     /// # Errors
@@ -191,15 +186,15 @@ pub trait Schema: Send + Sync {
         let mut construct = self.build(values, workspace, &Draws::new(seed, attempt, 0))?;
         let parameters =
             card.parameters.iter().zip(values).map(|(parameter, &value)| (parameter.name.to_string(), value));
-        let plain = Provenance {
+        construct.provenance = Provenance {
             schema: card.id.to_owned(),
             version: card.version,
             parameters: parameters.collect(),
             seed,
             attempt,
-            derivation: None,
+            // of a schema that derives
+            derivation: construct.provenance.derivation.take(),
         };
-        construct.provenance = self.provenance(&construct, plain);
         Ok(construct)
     }
 }

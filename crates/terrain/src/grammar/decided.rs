@@ -1,7 +1,6 @@
 //! A grammar as a schema: its parameters are what a derivation decides.
 
 use super::Grammar;
-use crate::construct::Provenance;
 use crate::draws::{Decisions, Draws};
 use crate::schema::{Domain, Parameter, Schema, SchemaCard};
 use crate::{Construct, TerrainError, Workspace};
@@ -41,9 +40,6 @@ impl Schema for Decided {
     fn build(&self, values: &[f64], _: &Workspace, draws: &Draws<'_>) -> Result<Construct, TerrainError> {
         let decisions = Decisions::new(values);
         self.grammar.derived(0, 0, &draws.decided(&decisions))?.construct(&self.grammar)
-    }
-    fn provenance(&self, construct: &Construct, plain: Provenance) -> Provenance {
-        Provenance { derivation: construct.provenance.derivation.clone(), ..plain }
     }
 }
 
