@@ -58,7 +58,7 @@ impl Kind for Decomposition {
             lines: &done.lines,
             seconds: done.seconds,
         };
-        end.tell(out, |out| told(&done.folder, out))
+        end.tell(out, |out| progress::told(&done.folder, REPORT, out))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         execute::of_folder(folder)?;
@@ -66,7 +66,7 @@ impl Kind for Decomposition {
     }
     fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         execute::report_again(folder, PROGRAM)?;
-        told(folder, out)
+        progress::told(folder, REPORT, out)
     }
 }
 
@@ -94,12 +94,6 @@ fn planned(plan: &Plan, threads: usize, out: &mut dyn Write) -> Result<(), Fault
         "time             about {} on {threads} threads",
         indicatif::HumanDuration(std::time::Duration::from_secs_f64(seconds))
     )?;
-    Ok(())
-}
-
-fn told(folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
-    writeln!(out, "tables  {}", folder.display())?;
-    writeln!(out, "page    {}", folder.join(REPORT).display())?;
     Ok(())
 }
 

@@ -68,7 +68,7 @@ impl Kind for Map {
             lines: &done.lines,
             seconds: done.seconds,
         };
-        end.tell(out, |out| told(&done.folder, out))
+        end.tell(out, |out| progress::told(&done.folder, REPORT, out))
     }
     fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
         Ok(Box::new(Mapped::open(folder)?))
@@ -79,14 +79,8 @@ impl Kind for Map {
     }
     fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         execute::report_again(folder, PROGRAM)?;
-        told(folder, out)
+        progress::told(folder, REPORT, out)
     }
-}
-
-fn told(folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
-    writeln!(out, "tables  {}", folder.display())?;
-    writeln!(out, "page    {}", folder.join(REPORT).display())?;
-    Ok(())
 }
 
 fn read(input: &Input, quick: bool) -> Result<Plan, Fault> {

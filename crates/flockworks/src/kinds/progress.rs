@@ -35,6 +35,13 @@ fn seeded(input: &mut Input, options: &RunOptions) -> usize {
     options.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
 }
 
+/// Where tables and page of a folder are.
+pub(super) fn told(folder: &Path, page: &str, out: &mut dyn Write) -> Result<(), Fault> {
+    writeln!(out, "tables  {}", folder.display())?;
+    writeln!(out, "page    {}", folder.join(page).display())?;
+    Ok(())
+}
+
 /// What became of a run, and its exit code: where it was stopped, what is said of that; else what was `made`, with its lines.
 pub(super) struct End<'a> {
     pub(super) stopped: Option<String>,
