@@ -90,6 +90,9 @@ struct Placed<R, const D: usize> {
     index: u32,
     opaque: bool,
     shape: Shape<R, D>,
+    /// Corners of a box that holds all of it, with more than rounding errors.
+    low: Vector<R, D>,
+    high: Vector<R, D>,
     /// A ball that holds all of it, with more than the rounding errors of telling so; infinite where none does.
     centre: Vector<R, D>,
     around: R,
@@ -104,8 +107,15 @@ impl<R: Real, const D: usize> Placed<R, D> {
             _ if low.finite() && high.finite() => (middle, (high - low).length() * R::HALF),
             _ => (Vector::ZERO, R::INFINITY),
         };
+        let rounding = epsilon::<R>() * R::of(64.0) * (centre.length() + around);
+        let slack = Vector([if rounding.finite() { rounding } else { R::ZERO }; D]);
         let around = around * R::of(1.0 + 1e-4) + epsilon::<R>() * R::of(64.0) * centre.length();
-        Self { index, opaque, shape, centre, around }
+        Self { index, opaque, shape, low: low - slack, high: high + slack, centre, around }
+    }
+    /// Whether its box and one with these corners have a point in common.
+    #[inline(always)]
+    fn meets(&self, low: Vector<R, D>, high: Vector<R, D>) -> bool {
+        (0..D).fold(true, |meets, a| meets & (self.low[a] <= high[a]) & (self.high[a] >= low[a]))
     }
     /// Whether it is certainly farther from `p` than `reach`.
     #[inline(always)]
@@ -344,10 +354,14 @@ impl<R: Real, const D: usize> Obstacles<R, D> {
     /// Whether an opaque obstacle now there lies strictly between two points (see [`Shape::between`]). In
     /// periodic space give `to` as `from` and the shortest way.
     pub fn hides(&self, from: Vector<R, D>, to: Vector<R, D>) -> bool {
+        let low = Vector(core::array::from_fn(|a| from[a].least(to[a])));
+        let high = Vector(core::array::from_fn(|a| from[a].most(to[a])));
+        let hides = |copy: &Placed<R, D>| copy.opaque && copy.meets(low, high) && copy.shape.between(from, to);
+        let Some(cells) = self.precise_cells(&[from, to]) else { return self.copies.iter().any(hides) };
         let step = to - from;
         let mut hidden = false;
-        self.along(self.precise_cells(&[from, to]), from, step.unit(), step.length(), |_, copy| {
-            hidden = hidden || copy.opaque && copy.shape.between(from, to);
+        self.along(Some(cells), from, step.unit(), step.length(), |_, copy| {
+            hidden = hidden || hides(copy);
             if hidden { -R::INFINITY } else { R::INFINITY }
         });
         hidden
@@ -722,8 +736,9 @@ mod tests {
             let crossing = obstacles.first_crossing(p, q);
             crossed += usize::from(crossing.is_some());
             assert_eq!(crossing, scan.first_crossing(p, q), "{p:?} {q:?}");
-            hidden += usize::from(obstacles.hides(p, q));
-            assert_eq!(obstacles.hides(p, q), scan.hides(p, q), "{p:?} {q:?}");
+            let between = scan.copies.iter().any(|copy| copy.opaque && copy.shape.between(p, q));
+            hidden += usize::from(between);
+            assert_eq!((obstacles.hides(p, q), scan.hides(p, q)), (between, between), "{p:?} {q:?}");
             for limit in [(q - p).length(), R::INFINITY] {
                 let hit = obstacles.cast(p, (q - p).unit(), limit);
                 struck += usize::from(hit.is_some());

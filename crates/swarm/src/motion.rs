@@ -347,6 +347,24 @@ pub struct Rough<'a, R, const D: usize> {
     pub squared: &'a [f32],
     /// See there.
     pub margin: f32,
+    /// Where everyone is, in single precision.
+    pub position: [&'a [f32]; D],
+    /// Row of the agent in question.
+    pub row: usize,
+    /// How wrong differences of two such places may be, along each axis.
+    pub displaced: f32,
+}
+
+impl<R: Real, const D: usize> Rough<'_, R, D> {
+    /// Displacements to the percepts from number `first` on, one per lane.
+    #[inline(always)]
+    pub fn offsets<L: Lanes<f32>>(&self, first: usize) -> [L; D] {
+        let mut offset = [L::splat(0.0); D];
+        for a in 0..D {
+            offset[a] = L::load(&self.position[a][first..]) - L::splat(self.position[a][self.row]);
+        }
+        offset
+    }
 }
 
 impl<R: Real, const D: usize> Percepts<'_, R, D> {

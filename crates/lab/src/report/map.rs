@@ -1,17 +1,18 @@
 //! Maps of a parameter space as static SVG: cells by what was found in them, or symbols at their centres.
 
 use super::escape::markup;
-use super::number::{axis_title, number, place};
+use super::number::{axis_title, place};
+use super::ticks::ticks;
 use super::{Map, MapCell, MapPanel};
 use core::fmt::Write;
 
 /// Width and height of a panel, and of its plot.
 const WIDTH: f64 = 400.0;
-const LEFT: f64 = 52.0;
+const LEFT: f64 = 62.0;
 const TOP: f64 = 10.0;
-pub(super) const PLOT: (f64, f64) = (338.0, 250.0);
+pub(super) const PLOT: (f64, f64) = (322.0, 250.0);
 const HEIGHT: f64 = 306.0;
-/// Marks along an axis.
+/// About so many marks along an axis.
 const TICKS: usize = 5;
 
 /// A panel as SVG.
@@ -69,20 +70,15 @@ pub(super) fn panel(map: &Map, panel: &MapPanel) -> String {
         }
     }
     let _ = write!(svg, "<rect class=\"frame\" x=\"{LEFT}\" y=\"{TOP}\" width=\"{}\" height=\"{}\"/>", PLOT.0, PLOT.1);
-    for k in 0..TICKS {
-        let share = k as f64 / (TICKS - 1) as f64;
-        let (at_x, at_y) = (x_ends.0 + share * (x_ends.1 - x_ends.0), y_ends.0 + share * (y_ends.1 - y_ends.0));
-        let _ = write!(
-            svg,
-            "<text class=\"tick\" text-anchor=\"middle\" x=\"{}\" y=\"{}\">{}</text>\
-             <text class=\"tick\" text-anchor=\"end\" x=\"{}\" y=\"{}\">{}</text>",
-            place(x(at_x)),
-            place(TOP + PLOT.1 + 16.0),
-            number(at_x),
-            place(LEFT - 6.0),
-            place(y(at_y) + 4.0),
-            number(at_y)
-        );
+    let marks = ticks(x_ends, TICKS);
+    for (&at, label) in marks.places.iter().zip(&marks.labels) {
+        let (x, y) = (place(x(at)), place(TOP + PLOT.1 + 16.0));
+        let _ = write!(svg, "<text class=\"tick\" text-anchor=\"middle\" x=\"{x}\" y=\"{y}\">{label}</text>");
+    }
+    let marks = ticks(y_ends, TICKS);
+    for (&at, label) in marks.places.iter().zip(&marks.labels) {
+        let (x, y) = (place(LEFT - 6.0), place(y(at) + 4.0));
+        let _ = write!(svg, "<text class=\"tick\" text-anchor=\"end\" x=\"{x}\" y=\"{y}\">{label}</text>");
     }
     let _ = write!(
         svg,

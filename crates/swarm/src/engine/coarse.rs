@@ -43,6 +43,16 @@ impl<const D: usize> Coarse<D> {
         }
         self.farthest = farthest.to_f64();
     }
+    /// Where everyone is, padded to whole blocks.
+    #[inline(always)]
+    pub(crate) fn position(&self) -> [&[f32]; D] {
+        self.position.each_ref().map(|column| &column[..])
+    }
+    /// How wrong the difference of two places may be along an axis: both were rounded, and so was the difference.
+    #[inline(always)]
+    pub(crate) fn displaced(&self) -> f32 {
+        (16.0 * ROUNDING * self.farthest) as f32
+    }
     /// What marks the rings about an agent; `None` where the rounding would be of the size of the rings.
     #[inline(always)]
     pub(crate) fn about<'a, R: Scalar>(
@@ -130,7 +140,7 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
             (low[s], high[s]) = (L::splat(self.low[s]), L::splat(self.high[s]));
             all_round[s] = if self.within_cone[s] { 0 } else { u32::MAX };
         }
-        let limited = if self.within_cone.contains(&true) { u32::MAX } else { 0 };
+        let limited = self.within_cone.contains(&true);
         let (cone, margin) = (L::splat(self.cone), L::splat(self.cone_margin));
         let (own_block, own_bit) = (row / BLOCK, 1 << (row % BLOCK));
         let mut unsure = 0;
@@ -149,14 +159,16 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
                     nearer[s] |= squared.less(low[s]).bits() << part;
                     perhaps[s] |= squared.less(high[s]).bits() << part;
                 }
-                let along = dot(&heading, &offset);
-                let ahead = along * along.size() - cone * squared;
-                let sees = margin.less_equal(ahead);
-                seen |= sees.bits() << part;
-                told |= sees.or(ahead.less(-margin)).bits() << part;
+                if limited {
+                    let along = dot(&heading, &offset);
+                    let ahead = along * along.size() - cone * squared;
+                    let sees = margin.less_equal(ahead);
+                    seen |= sees.bits() << part;
+                    told |= sees.or(ahead.less(-margin)).bits() << part;
+                }
             }
             let mut inside = 0;
-            let mut blurred = !told & limited & perhaps[RINGS - 1];
+            let mut blurred = if limited { !told & perhaps[RINGS - 1] } else { 0 };
             for s in 0..RINGS {
                 marks[s][block] = (nearer[s] & !inside & (seen | all_round[s])) as u16;
                 inside = nearer[s];

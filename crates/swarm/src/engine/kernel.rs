@@ -894,7 +894,12 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
         let place = view.now.position(row);
         let count = scratch.found;
-        scratch.sort_by_distance();
+        if bodies {
+            scratch.sort_by_distance();
+        } else {
+            scratch.order.clear();
+            scratch.order.extend(0..count as u32);
+        }
         scratch.chosen.clear();
         scratch.chosen.resize(count, true);
         for n in 0..count {
@@ -1309,11 +1314,14 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             columns: &stages.columns,
             whole: scratch.whole,
             uneven: view.uneven,
-            rough: if scratch.rough {
-                Some(Rough { from: position, squared: &scratch.rough_squared, margin: scratch.margin })
-            } else {
-                None
-            },
+            rough: view.coarse.filter(|_| scratch.rough).map(|coarse| Rough {
+                from: position,
+                squared: &scratch.rough_squared,
+                margin: scratch.margin,
+                position: coarse.position(),
+                row,
+                displaced: coarse.displaced(),
+            }),
         };
         let draws = Draws::new(view.seed, view.step, view.now.id[row], view.injected);
         let mut me = Me {

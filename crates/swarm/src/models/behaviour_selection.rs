@@ -315,39 +315,50 @@ impl Sight<'_> {
 }
 
 /// Limits of azimuth and elevation about a heading.
-struct Axes<R> {
+struct Axes<N> {
     /// Cosine and sine of azimuth and elevation of the heading.
-    heading: [(R, R); 2],
+    heading: [(N, N); 2],
     /// Cosine and sine of the limits to either side, and up and down.
-    limits: [(R, R); 2],
+    limits: [(N, N); 2],
+    /// How wrong offsets may be.
+    slack: N,
 }
-impl<R: Scalar> Axes<R> {
-    fn of(law: &BehaviourSelection<R>, angles: (R, R)) -> Self {
-        let parts = |angle: R| {
-            let (sin, cos) = angle.sin_cos();
-            (cos, sin)
-        };
+impl<N: Real> Axes<N> {
+    /// About a heading, where offsets are wrong by less than so much.
+    #[inline(always)]
+    fn of<R: Scalar, L: Lanes<N>>(law: &BehaviourSelection<R>, angles: (R, R), slack: N) -> Self {
         let (half, vertical) = law.half_angles();
-        Self { heading: [parts(angles.0), parts(angles.1)], limits: [parts(half), parts(vertical)] }
+        let mut given = [N::ZERO; WIDEST];
+        for (to, angle) in given.iter_mut().zip([angles.0, angles.1, half, vertical]) {
+            *to = N::of(angle.to_f64());
+        }
+        let (mut sines, mut cosines) = ([N::ZERO; WIDEST], [N::ZERO; WIDEST]);
+        for first in (0..4).step_by(L::WIDTH) {
+            let (sine, cosine) = sine_cosine::<N, L>(L::load(&given[first..]));
+            sine.store(&mut sines[first..]);
+            cosine.store(&mut cosines[first..]);
+        }
+        let pair = |l: usize| (cosines[l], sines[l]);
+        Self { heading: [pair(0), pair(1)], limits: [pair(2), pair(3)], slack }
     }
     /// Where offsets are surely within the limits, and where surely not: what [`BehaviourSelection::sees_by_axes`] says, without
     /// its angles, wherever rounding cannot decide. An angle is within a limit where the sine of their difference is not positive.
     #[inline(always)]
-    fn tell<L: Lanes<R>>(&self, offset: &[L; 3]) -> (L::Mask, L::Mask) {
+    fn tell<L: Lanes<N>>(&self, offset: &[L; 3]) -> (L::Mask, L::Mask) {
         let [x, y, z] = *offset;
         let level = (x * x + y * y).square_root();
-        let turned = |(cos, sin): (R, R), along: L, across: L| {
+        let turned = |(cos, sin): (N, N), along: L, across: L| {
             let (cos, sin) = (L::splat(cos), L::splat(sin));
             (along * cos + across * sin, across * cos - along * sin)
         };
         let beyond =
-            |(along, across): (L, L), (cos, sin): (R, R)| across.size() * L::splat(cos) - along * L::splat(sin);
+            |(along, across): (L, L), (cos, sin): (N, N)| across.size() * L::splat(cos) - along * L::splat(sin);
         let aside = beyond(turned(self.heading[0], x, y), self.limits[0]);
         let above = beyond(turned(self.heading[1], level, z), self.limits[1]);
-        let unsure = L::splat(R::of(UNSURE));
-        let (near, far) = (level * unsure, (level + z.size()) * unsure);
+        let (unsure, slack) = (L::splat(N::of(UNSURE)), L::splat(self.slack));
+        let (near, far) = (level * unsure + slack, (level + z.size()) * unsure + slack);
         let within = aside.less(-near).and(above.less(-far));
-        let beside = near.less(aside).and(L::splat(R::TINY).less(level));
+        let beside = near.less(aside).and(L::splat(N::TINY).less(level));
         (within, far.less(above).or(beside))
     }
 }
@@ -359,12 +370,12 @@ struct ByAxes<'a, R> {
     /// Azimuth and elevation of the heading.
     angles: (R, R),
 }
-impl<R: Scalar> Task<R> for ByAxes<'_, R> {
-    type Output = Vec<u16>;
+impl<R: Scalar> ByAxes<'_, R> {
+    /// The sets, by offsets in any precision; whoever cannot be told by these is looked at alone.
     #[inline(always)]
-    fn run<L: Lanes<R>>(self) -> Vec<u16> {
-        let Self { law, seen, angles } = self;
-        let axes = Axes::of(law, angles);
+    fn told<N: Real, L: Lanes<N>>(&self, offsets: impl Offsets<N>, slack: N) -> Vec<u16> {
+        let &Self { law, seen, angles } = self;
+        let axes = Axes::of::<R, L>(law, angles, slack);
         let mut marks = seen.marks.concat();
         let blocks = seen.blocks();
         let first_hidden = if law.avoid_blind { AVOIDANCE } else { ALIGNMENT };
@@ -375,7 +386,7 @@ impl<R: Scalar> Task<R> for ByAxes<'_, R> {
                 if asked >> part & mask_of(L::WIDTH) == 0 {
                     continue;
                 }
-                let (within, hidden) = axes.tell::<L>(&seen.several::<L>(block * BLOCK + part).0);
+                let (within, hidden) = axes.tell::<L>(&offsets.several::<L>(block * BLOCK + part));
                 visible |= within.bits() << part;
                 let mut unsure = !(within.bits() | hidden.bits()) & mask_of(L::WIDTH) & asked >> part;
                 while unsure != 0 {
@@ -389,6 +400,42 @@ impl<R: Scalar> Task<R> for ByAxes<'_, R> {
             }
         }
         marks
+    }
+}
+impl<R: Scalar> Task<R> for ByAxes<'_, R> {
+    type Output = Vec<u16>;
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) -> Vec<u16> {
+        self.told::<R, L>(self.seen, R::ZERO)
+    }
+}
+
+/// The same by places in single precision, twice as many others at a time.
+struct ByAxesRoughly<'a, R>(ByAxes<'a, R>, Rough<'a, R, 3>);
+impl<R: Scalar> Task<f32> for ByAxesRoughly<'_, R> {
+    type Output = Vec<u16>;
+    #[inline(always)]
+    fn run<L: Lanes<f32>>(self) -> Vec<u16> {
+        let Self(exactly, rough) = self;
+        exactly.told::<f32, L>(rough, rough.displaced)
+    }
+}
+
+/// Offsets of percepts, so many from a number on.
+trait Offsets<N> {
+    /// One per lane.
+    fn several<L: Lanes<N>>(&self, first: usize) -> [L; 3];
+}
+impl<R: Scalar> Offsets<R> for &Percepts<'_, R, 3> {
+    #[inline(always)]
+    fn several<L: Lanes<R>>(&self, first: usize) -> [L; 3] {
+        Percepts::several::<L>(self, first).0
+    }
+}
+impl<R: Scalar> Offsets<f32> for Rough<'_, R, 3> {
+    #[inline(always)]
+    fn several<L: Lanes<f32>>(&self, first: usize) -> [L; 3] {
+        self.offsets(first)
     }
 }
 
@@ -481,6 +528,9 @@ impl<R: Scalar> Task<R> for SumOfDirections<'_, R> {
             let mut members = u32::from(sight.members(set, block));
             if seen.whole && members != 0 {
                 for part in (0..BLOCK).step_by(L::WIDTH) {
+                    if members >> part & mask_of(L::WIDTH) == 0 {
+                        continue;
+                    }
                     let (offset, squared) = seen.several::<L>(block * BLOCK + part);
                     let unit = towards(&offset, squared);
                     for a in 0..3 {
@@ -1091,7 +1141,11 @@ impl<R: Scalar> Abreast<R, 3> for BehaviourSelection<R> {
             View::Cone => self.wished(me, seen, Sight(seen.marks), draws),
             View::Axes => {
                 let angles = (me.own[THETA], me.own[PHI]);
-                let marks = with_lanes(level(), ByAxes { law: self, seen, angles });
+                let exactly = ByAxes { law: self, seen, angles };
+                let marks = match seen.rough {
+                    Some(rough) => with_lanes(level(), ByAxesRoughly(exactly, rough)),
+                    None => with_lanes(level(), exactly),
+                };
                 let (avoidance, others) = marks.split_at(seen.blocks());
                 let (alignment, attraction) = others.split_at(seen.blocks());
                 self.wished(me, seen, Sight([avoidance, alignment, attraction]), draws)
@@ -1278,12 +1332,15 @@ mod tests {
         let law = <BehaviourSelection<R> as crate::parameters::Parameters>::from_values(&values);
         assert!(law.is_ok());
         let Ok(mut law) = law else { return };
-        let mut seen = [0; 2];
+        let (mut seen, mut roughly) = ([0; 2], 0);
         for k in 0..20_000u64 {
             law.field_of_view = R::of(360.0 * number(k, 0));
             law.vertical_field_of_view = R::of(180.0 * number(k, 1));
             let angles = (turn(number(k, 2) - 0.5), turn(0.5 * number(k, 3) - 0.25));
-            let axes = Axes::of(&law, angles);
+            let axes = Axes::of::<R, R>(&law, angles, R::ZERO);
+            // by places in single precision, of one who stands anywhere in a tank
+            let from = Vector([8, 9, 10].map(|d| R::of(335.0 * number(k, d))));
+            let rough = Axes::of::<R, f32>(&law, angles, 335.0 / f32::powi(2.0, 20));
             let told = |offset: Vector<R, 3>| {
                 let (within, hidden) = axes.tell::<R>(&offset.0);
                 assert!(!(within && hidden));
@@ -1303,6 +1360,13 @@ mod tests {
                 let exactly = law.sees_by_axes(angles, offset);
                 assert_eq!(told(offset), exactly, "{k}");
                 seen[usize::from(exactly)] += 1;
+                let coarse = core::array::from_fn(|a| {
+                    ((from[a] + offset[a]).to_f64() as f32) - (from[a].to_f64() as f32)
+                });
+                let exactly = law.sees_by_axes(angles, from + offset - from);
+                let (within, hidden) = rough.tell::<f32>(&coarse);
+                assert!(if exactly { !hidden } else { !within }, "{k}");
+                roughly += usize::from(within || hidden);
             }
             for offset in [[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1e-300], [1e-14, 0.0, 0.0], [1.0, 0.0, 0.0]] {
                 let offset = Vector(offset.map(R::of));
@@ -1310,6 +1374,8 @@ mod tests {
             }
         }
         assert!(seen.iter().all(|&count| count > 10_000), "{seen:?}");
+        // one of five is drawn anywhere, the others about the limits
+        assert!(roughly > 19_000, "{roughly}");
     }
 
     #[test]

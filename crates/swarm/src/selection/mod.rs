@@ -316,15 +316,11 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
     fn id(&self, k: usize) -> u32 {
         self.others.id[self.row[k] as usize]
     }
-    /// Whether a rank-free function selects candidate `k`.
+    /// Whether one of the functions that look at one candidate alone selects candidate `k`.
     fn holds(&self, perception: &Perception<R, D>, k: usize) -> bool {
         match perception {
             Perception::All => true,
             Perception::FixedSet(lists) => lists.get(self.member).is_some_and(|list| list.contains(&self.id(k))),
-            Perception::DistanceBased { low, high } => {
-                let squared = self.squared[k];
-                squared >= *low * *low && squared < *high * *high
-            }
             Perception::BoundingBox { low, high, body_frame } => {
                 let mut offset = self.offset(k);
                 if *body_frame && !self.heading.is_tiny() {
@@ -336,9 +332,6 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
                     offset = turned;
                 }
                 (0..D).all(|a| low[a] <= offset[a] && offset[a] <= high[a])
-            }
-            Perception::Angle { cos_half, .. } => {
-                in_view::<R, R, D>(&self.heading.0, &self.offset(k).0, self.squared[k], *cos_half)
             }
             _ => false,
         }
@@ -406,6 +399,18 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
                 scratch.spare.push(other);
             }
             Perception::Sequence(parts) => parts.iter().for_each(|part| self.select(part, chosen, scratch)),
+            // the two that most laws ask for: without branches, for everybody
+            Perception::DistanceBased { low, high } => {
+                let (low, high) = (*low * *low, *high * *high);
+                for (chosen, &squared) in chosen.iter_mut().zip(self.squared) {
+                    *chosen &= (squared >= low) & (squared < high);
+                }
+            }
+            Perception::Angle { cos_half, .. } => {
+                for k in 0..chosen.len() {
+                    chosen[k] &= in_view::<R, R, D>(&self.heading.0, &self.offset(k).0, self.squared[k], *cos_half);
+                }
+            }
             simple => {
                 for k in 0..chosen.len() {
                     chosen[k] = chosen[k] && self.holds(simple, k);
