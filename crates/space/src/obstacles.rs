@@ -125,6 +125,19 @@ impl<R: Real, const D: usize> Placed<R, D> {
     }
 }
 
+/// Which of few obstacles may hide anything, one bit each; any, where they are many.
+#[derive(Clone, Copy, Debug)]
+pub struct Screens(Option<u32>);
+
+impl Screens {
+    /// Any obstacle may.
+    pub const ANY: Self = Self(None);
+    /// Whether none does.
+    pub fn is_none(self) -> bool {
+        self.0 == Some(0)
+    }
+}
+
 /// All obstacles of a world.
 ///
 /// In periodic space each obstacle is seen through the seams by images of itself, as far as they come within `reach`
@@ -351,12 +364,30 @@ impl<R: Real, const D: usize> Obstacles<R, D> {
         Some((hit, self.copies.get(number)?.index))
     }
 
-    /// Whether an opaque obstacle now there lies strictly between two points (see [`Shape::between`]). In
-    /// periodic space give `to` as `from` and the shortest way.
-    pub fn hides(&self, from: Vector<R, D>, to: Vector<R, D>) -> bool {
+    /// Which opaque obstacles now there may lie between two points of a box, for [`Self::hides`].
+    pub fn screens(&self, low: Vector<R, D>, high: Vector<R, D>) -> Screens {
+        if self.cells.is_some() || self.copies.len() > 32 {
+            return Screens(None);
+        }
+        let near = |(k, copy): (usize, &Placed<R, D>)| u32::from(copy.opaque && copy.meets(low, high)) << k;
+        Screens(Some(self.copies.iter().enumerate().map(near).fold(0, |all, one| all | one)))
+    }
+
+    /// Whether an opaque obstacle now there, one of those that were picked, lies strictly between two points (see
+    /// [`Shape::between`]). In periodic space give `to` as `from` and the shortest way.
+    pub fn hides(&self, screens: Screens, from: Vector<R, D>, to: Vector<R, D>) -> bool {
         let low = Vector(core::array::from_fn(|a| from[a].least(to[a])));
         let high = Vector(core::array::from_fn(|a| from[a].most(to[a])));
         let hides = |copy: &Placed<R, D>| copy.opaque && copy.meets(low, high) && copy.shape.between(from, to);
+        if let Screens(Some(mut left)) = screens {
+            while left != 0 {
+                if hides(&self.copies[left.trailing_zeros() as usize]) {
+                    return true;
+                }
+                left &= left - 1;
+            }
+            return false;
+        }
         let Some(cells) = self.precise_cells(&[from, to]) else { return self.copies.iter().any(hides) };
         let step = to - from;
         let mut hidden = false;
@@ -738,7 +769,8 @@ mod tests {
             assert_eq!(crossing, scan.first_crossing(p, q), "{p:?} {q:?}");
             let between = scan.copies.iter().any(|copy| copy.opaque && copy.shape.between(p, q));
             hidden += usize::from(between);
-            assert_eq!((obstacles.hides(p, q), scan.hides(p, q)), (between, between), "{p:?} {q:?}");
+            let told = |obstacles: &Obstacles<R, D>| obstacles.hides(Screens::ANY, p, q);
+            assert_eq!((told(obstacles), told(&scan)), (between, between), "{p:?} {q:?}");
             for limit in [(q - p).length(), R::INFINITY] {
                 let hit = obstacles.cast(p, (q - p).unit(), limit);
                 struck += usize::from(hit.is_some());
@@ -862,7 +894,7 @@ mod tests {
         let crossing = obstacles.first_crossing(Vector([9.5, 5.0]), Vector([11.5, 5.0])).unwrap();
         assert_eq!((crossing.0, crossing.1), (0.5, 0));
         assert_eq!(obstacles.cast(Vector([9.5, 5.0]), Vector([1.0, 0.0]), 2.0).unwrap().0.distance, 1.0);
-        assert!(obstacles.hides(Vector([9.5, 5.0]), Vector([12.0, 5.0])));
+        assert!(obstacles.hides(Screens::ANY, Vector([9.5, 5.0]), Vector([12.0, 5.0])));
         assert_eq!(seen(&obstacles, Vector([1.0, -4.0]), 3.0), vec![], "the other axis has no seam");
         assert_eq!(obstacles.present().count(), 1, "images are not obstacles");
 
@@ -956,9 +988,14 @@ mod tests {
         let glass = Obstacle { opaque: false, ..Obstacle::new(wall.clone()) };
         let (from, to) = (Vector([0.0, 0.0]), Vector([2.0, 0.0]));
         let window = Obstacles::new(vec![glass.clone()], [None; 2], 1.0).unwrap();
-        assert!(!window.hides(from, to) && window.first_crossing(from, to).is_some());
+        assert!(!window.hides(Screens::ANY, from, to) && window.first_crossing(from, to).is_some());
+        assert!(window.screens(from, to).is_none());
         let both = Obstacles::new(vec![glass, Obstacle::new(wall)], [None; 2], 1.0).unwrap();
-        assert!(both.hides(from, to) && !both.hides(from, Vector([1.0, 0.0])) && !both.hides(from, from));
+        for screens in [Screens::ANY, both.screens(from, to)] {
+            assert!(both.hides(screens, from, to) && !both.hides(screens, from, Vector([1.0, 0.0])));
+            assert!(!both.hides(screens, from, from));
+        }
+        assert!(both.screens(from, Vector([0.5, 0.5])).is_none());
     }
 
     #[test]
@@ -966,7 +1003,9 @@ mod tests {
         let none = Obstacles::<f32, 2>::new(vec![], [None; 2], 0.0).unwrap();
         assert!(none.is_empty() && Obstacles::<f32, 2>::default().is_empty());
         let (p, q) = (Vector([0.0, 0.0]), Vector([1.0, 0.0]));
-        assert!(none.first_crossing(p, q).is_none() && none.cast(p, q, 9.0).is_none() && !none.hides(p, q));
+        assert!(
+            none.first_crossing(p, q).is_none() && none.cast(p, q, 9.0).is_none() && !none.hides(Screens::ANY, p, q)
+        );
         assert_eq!(none.overlapping(p, 9.0), None);
     }
 

@@ -330,6 +330,8 @@ pub struct Percepts<'a, R, const D: usize> {
     pub others: &'a Columns<R, D>,
     /// Column in `others` of each of the model's declared columns.
     pub columns: &'a [usize],
+    /// Their headings, where these are at hand; else empty.
+    pub headings: [&'a [R]; D],
     /// Whether percept `k` is row `k` of `others`. Only for laws that ask for marks.
     pub whole: bool,
     /// Whether members may be unequally fast, so that headings are not velocities over one speed.
@@ -432,7 +434,11 @@ impl<R: Real, const D: usize> Percepts<'_, R, D> {
     /// Heading of percept `k`.
     #[inline(always)]
     pub fn heading(&self, k: usize) -> Vector<R, D> {
-        self.velocity(k).unit()
+        if self.headings[0].is_empty() {
+            return self.velocity(k).unit();
+        }
+        let row = self.row[k] as usize;
+        Vector(core::array::from_fn(|a| self.headings[a][row]))
     }
     /// Id of percept `k`, for laws that need identities.
     #[inline(always)]

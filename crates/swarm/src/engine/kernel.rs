@@ -16,7 +16,7 @@ use crate::sensing::{Ideal, Occlusion, Pool};
 use core::ops::Range;
 use space::grid::Segment;
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
-use space::obstacles::Obstacles;
+use space::obstacles::{Obstacles, Screens};
 use space::parallel::Shared;
 use space::random::{Purpose, Stream as DrawStream, uniforms};
 use space::shape::Shape;
@@ -39,7 +39,7 @@ pub(crate) struct View<'a, R, const D: usize> {
     pub(crate) now: &'a Columns<R, D>,
     /// What is seen of others: `now`, or an older moment where readings are stale.
     pub(crate) others: &'a Columns<R, D>,
-    /// Unit headings of `now`, where a streaming law uses them.
+    /// Unit headings of `now`, where a law wants them at hand.
     pub(crate) heading: &'a [Vec<R>; D],
     /// Places of `others` in single precision, where that is of use.
     pub(crate) coarse: Option<&'a Coarse<D>>,
@@ -417,8 +417,8 @@ impl<'a, R: Scalar, const D: usize> Writer<'a, R, D> {
 pub(crate) trait Kernel<R: Scalar, const D: usize>: Send + Sync {
     /// Stages around the law.
     fn stages(&self) -> &Stages<R, D>;
-    /// Whether the law runs neighbour by neighbour in lanes, and then whether it wants headings.
-    fn streams(&self) -> Option<bool>;
+    /// Whether the law wants headings at hand.
+    fn headings(&self) -> bool;
     /// Whether the law has rows marked that are in its rings.
     fn marks(&self) -> bool {
         false
@@ -894,8 +894,19 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
         let place = view.now.position(row);
         let count = scratch.found;
+        // walls can only be in the way within the box that holds me and everybody
+        let (mut low, mut high) = (place, place);
+        for a in 0..D {
+            for &offset in &scratch.offset[a][..count] {
+                let at = place[a] + offset;
+                (low[a], high[a]) = (low[a].least(at), high[a].most(at));
+            }
+        }
+        let screens = view.obstacles.screens(low, high);
         if bodies {
             scratch.sort_by_distance();
+        } else if screens.is_none() {
+            return;
         } else {
             scratch.order.clear();
             scratch.order.extend(0..count as u32);
@@ -913,8 +924,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                     let along = (other.dot(to) / far.most(R::TINY)).clamped(R::ZERO, R::ONE);
                     scratch.squared[m as usize] < far && (other - to * along).length_squared() < radius * radius
                 });
-            let walled = !hidden && !view.obstacles.is_empty() && view.obstacles.hides(place, place + to);
-            scratch.chosen[k] = !(hidden || walled);
+            scratch.chosen[k] = !(hidden || view.obstacles.hides(screens, place, place + to));
         }
         let chosen = core::mem::take(&mut scratch.chosen);
         scratch.retain(|_, k| chosen[k]);
@@ -944,7 +954,8 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                         let along = (other.dot(to) / squared).clamped(R::ZERO, R::ONE);
                         scratch.squared[m] < far && (other - to * along).length_squared() < radius * radius
                     });
-                let walled = !hidden && !view.obstacles.is_empty() && view.obstacles.hides(place, place + to);
+                let walled =
+                    !hidden && !view.obstacles.is_empty() && view.obstacles.hides(Screens::ANY, place, place + to);
                 clear += usize::from(!(hidden || walled));
             }
             scratch.chosen[k] = R::count(clear) >= least * R::count(DISC);
@@ -1312,6 +1323,12 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             marks: firsts(&scratch.marks, scratch.found.div_ceil(BLOCK)),
             others: if indirect { &scratch.sensed } else { view.others },
             columns: &stages.columns,
+            // what was sensed with errors, or is of an older moment, is not the present one
+            headings: if indirect || !core::ptr::eq(view.others, view.now) {
+                [&[]; D]
+            } else {
+                view.heading.each_ref().map(|column| &column[..])
+            },
             whole: scratch.whole,
             uneven: view.uneven,
             rough: view.coarse.filter(|_| scratch.rough).map(|coarse| Rough {
@@ -1482,8 +1499,8 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
     fn stages(&self) -> &Stages<R, D> {
         &self.stages
     }
-    fn streams(&self) -> Option<bool> {
-        None
+    fn headings(&self) -> bool {
+        false
     }
     fn complete(&self, start: &mut Start<'_, R, D>) {
         self.law.complete(start);
@@ -1629,8 +1646,8 @@ impl<R: Scalar, const D: usize, M: Abreast<R, D>> Kernel<R, D> for SideBySide<M,
     fn stages(&self) -> &Stages<R, D> {
         self.listed.stages()
     }
-    fn streams(&self) -> Option<bool> {
-        None
+    fn headings(&self) -> bool {
+        self.marks()
     }
     fn marks(&self) -> bool {
         self.listed.stages.rings.is_some()
@@ -1805,7 +1822,8 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
                 resources.nearest_abreast(view.space, &place).store(&mut item);
             }
             let stages = &self.listed.stages;
-            if stages.plain && view.mortality.is_none() && view.bodies.len() == 1 {
+            let mine = || view.bodies.len() == 1 || (row..row + count).all(|row| stages.mine(view.now.id[row]));
+            if stages.plain && view.mortality.is_none() && mine() {
                 self.finish_block::<L>(view, row, count, &each, &first, &item, out, scratch);
             } else {
                 for k in 0..count {
@@ -2004,8 +2022,8 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Kernel<R, D> for Streamed<M, R,
     fn stages(&self) -> &Stages<R, D> {
         &self.listed.stages
     }
-    fn streams(&self) -> Option<bool> {
-        self.direct().then_some(M::HEADINGS)
+    fn headings(&self) -> bool {
+        M::HEADINGS
     }
     fn complete(&self, start: &mut Start<'_, R, D>) {
         Stream::complete(self.law(), start);

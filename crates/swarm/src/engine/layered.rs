@@ -168,8 +168,8 @@ impl<R: Scalar, const D: usize> Kernel<R, D> for Layered<R, D> {
     fn stages(&self) -> &Stages<R, D> {
         self.usual[0].stages()
     }
-    fn streams(&self) -> Option<bool> {
-        self.usual.iter().chain(&self.adapted).filter_map(|kernel| kernel.streams()).reduce(|a, b| a || b)
+    fn headings(&self) -> bool {
+        self.usual.iter().chain(&self.adapted).any(|kernel| kernel.headings())
     }
     fn marks(&self) -> bool {
         self.usual.iter().chain(&self.adapted).any(|kernel| kernel.marks())

@@ -330,7 +330,7 @@ where
                 kernels.push((model.build)(stages));
             }
             let kernel = Layered::of(group, kernels, plan.seed, first, steps, find);
-            headings |= kernel.streams() == Some(true) || kernel.marks();
+            headings |= kernel.headings();
             groups.push(Group {
                 name: group.name.clone(),
                 model: group.model.clone(),

@@ -360,19 +360,23 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
                 }
             }
             Perception::Intersection(parts) => {
-                let mut result = scratch.spare.pop().unwrap_or_default();
-                result.clear();
-                result.extend_from_slice(chosen);
-                for part in parts {
-                    let mut one = scratch.spare.pop().unwrap_or_default();
-                    one.clear();
-                    one.extend_from_slice(chosen);
-                    self.select(part, &mut one, scratch);
-                    result.iter_mut().zip(&one).for_each(|(r, o)| *r &= o);
-                    scratch.spare.push(one);
+                // a rank is one among all that were marked; whatever looks at each candidate alone may come after
+                if parts.iter().any(Perception::ranks) {
+                    let mut result = scratch.spare.pop().unwrap_or_default();
+                    result.clear();
+                    result.extend_from_slice(chosen);
+                    for part in parts.iter().filter(|part| part.ranks()) {
+                        let mut one = scratch.spare.pop().unwrap_or_default();
+                        one.clear();
+                        one.extend_from_slice(chosen);
+                        self.select(part, &mut one, scratch);
+                        result.iter_mut().zip(&one).for_each(|(r, o)| *r &= o);
+                        scratch.spare.push(one);
+                    }
+                    chosen.copy_from_slice(&result);
+                    scratch.spare.push(result);
                 }
-                chosen.copy_from_slice(&result);
-                scratch.spare.push(result);
+                parts.iter().filter(|part| !part.ranks()).for_each(|part| self.select(part, chosen, scratch));
             }
             Perception::Union(parts) => {
                 let mut result = scratch.spare.pop().unwrap_or_default();
@@ -406,6 +410,8 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
                     *chosen &= (squared >= low) & (squared < high);
                 }
             }
+            // a whole turn
+            Perception::Angle { cos_half, .. } if *cos_half < -R::ONE => {}
             Perception::Angle { cos_half, .. } => {
                 for k in 0..chosen.len() {
                     chosen[k] &= in_view::<R, R, D>(&self.heading.0, &self.offset(k).0, self.squared[k], *cos_half);
