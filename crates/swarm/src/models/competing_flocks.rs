@@ -270,18 +270,23 @@ impl<R: Scalar> Stream<R, 2> for CompetingFlocks<R> {
         let id = L::splat(R::of(f64::from(other.others.id[other.row])));
         let same = me.own[FLOCK].less_equal(flock).and(flock.less_equal(me.own[FLOCK]));
         let (mate, stranger) = (sets[0].and(same), sets[1].and(same.not()));
-        // neighbours come in the order of cells, so the lower id has to be looked for
-        let first = numbers[0].less_equal(L::splat(R::ZERO));
-        let lower = squared.less_equal(nearest[2]).and(id.less(nearest[3]));
-        let nearer = mate.and(first.or(squared.less(nearest[2])).or(lower));
-        for (best, new) in nearest.iter_mut().zip([offset[0], offset[1], squared, id]) {
-            *best = L::choose(nearer, new, *best);
+        // the members of a flock follow each other, so that for most of the others one of the two has nothing to do
+        if mate.any() {
+            // neighbours come in the order of cells, so the lower id has to be looked for
+            let first = numbers[0].less_equal(L::splat(R::ZERO));
+            let lower = squared.less_equal(nearest[2]).and(id.less(nearest[3]));
+            let nearer = mate.and(first.or(squared.less(nearest[2])).or(lower));
+            for (best, new) in nearest.iter_mut().zip([offset[0], offset[1], squared, id]) {
+                *best = L::choose(nearer, new, *best);
+            }
+            add_where(mates, mate, *offset);
+            add_where(velocities, mate, splat(other.velocity));
+            numbers[0] = numbers[0].add_where(mate, L::splat(R::ONE));
         }
-        add_where(mates, mate, *offset);
-        add_where(velocities, mate, splat(other.velocity));
-        add_where(others, stranger, *offset);
-        numbers[0] = numbers[0].add_where(mate, L::splat(R::ONE));
-        numbers[1] = numbers[1].add_where(stranger, L::splat(R::ONE));
+        if stranger.any() {
+            add_where(others, stranger, *offset);
+            numbers[1] = numbers[1].add_where(stranger, L::splat(R::ONE));
+        }
     }
     #[inline(always)]
     fn finish(

@@ -361,7 +361,8 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
             }
             Perception::Intersection(parts) => {
                 // a rank is one among all that were marked; whatever looks at each candidate alone may come after
-                if parts.iter().any(Perception::ranks) {
+                let ranked = parts.iter().any(Perception::ranks);
+                if ranked {
                     let mut result = scratch.spare.pop().unwrap_or_default();
                     result.clear();
                     result.extend_from_slice(chosen);
@@ -376,7 +377,9 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
                     chosen.copy_from_slice(&result);
                     scratch.spare.push(result);
                 }
-                parts.iter().filter(|part| !part.ranks()).for_each(|part| self.select(part, chosen, scratch));
+                for part in parts.iter().filter(|part| !(ranked && part.ranks())) {
+                    self.select(part, chosen, scratch);
+                }
             }
             Perception::Union(parts) => {
                 let mut result = scratch.spare.pop().unwrap_or_default();
