@@ -1,13 +1,14 @@
 //! Finding walls for a task: leg by leg, by trials.
 //!
 //! Walls are anchored beside the path, on the outer side of a bend among other places (the schema `itb` of the source, of several
-//! walls), one alone or two that mirror each other. For each leg the best of many candidates are kept that bring the targets through the next
+//! walls), one alone or two that mirror each other; beside them stand channels along the whole of a leg, which no few walls drawn at
+//! random come near. For each leg the best of many candidates are kept that bring the targets through the next
 //! gate, those with the least wall first; several partial solutions are followed, so that an early choice can be revised. In the end
 //! walls that are not needed are left out.
 //! Draws are those of `terrain`: the key is the task's seed, attempt = leg and place in the search, step = candidate.
 
 use super::form::Solver;
-use super::task::{Task, Wall};
+use super::task::{ROOM, Task, Wall};
 use super::trial::{self, Arena};
 use core::cmp::Ordering;
 use space::segment::Relation;
@@ -22,8 +23,6 @@ const LEANING: f64 = 75.0;
 const BESIDE: [f64; 4] = [0.5, 0.6, 0.8, 1.0];
 /// Steps of places along a leg and of lengths.
 const STEP: f64 = 0.5;
-/// Room between a wall and the disc in which targets start.
-const ROOM: f64 = 0.2;
 
 /// What a search found.
 #[derive(Clone, Debug, PartialEq)]
@@ -144,9 +143,16 @@ impl Problem<'_> {
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<Vec<State>>, String> {
         let mut tried = Vec::new();
-        for number in 0..self.solver.candidates {
-            let draws = Draws::new(self.seed, attempt, number as u64);
-            let added = self.candidate(leg, most, &draws);
+        // a channel makes what stands beside its leg superfluous
+        let channels = BESIDE.into_iter().map(|beside| {
+            let walls = self.task.channel(leg, beside * self.task.half_width, self.solver.longest);
+            walls.into_iter().filter(|wall| self.fits(wall)).collect::<Vec<_>>()
+        });
+        let channels = channels.filter(|channel| channel.len() <= most);
+        let channels = channels.filter(|_| state.walls.iter().all(|wall| wall.leg != leg));
+        let drawn = (0..self.solver.candidates)
+            .map(|number| self.candidate(leg, most, &Draws::new(self.seed, attempt, number as u64)));
+        for added in channels.chain(drawn) {
             if added.is_empty() {
                 continue;
             }

@@ -3,6 +3,12 @@
 use space::segment::Segment;
 use terrain::Point;
 
+/// Room between a wall and the disc in which targets start.
+pub const ROOM: f64 = 0.2;
+/// A channel is this much wider about the start than it must be, and this long until it is as narrow as it will be.
+const MOUTH: f64 = 0.15;
+const TAPER: f64 = 0.9;
+
 /// A task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Task {
@@ -72,6 +78,42 @@ impl Task {
         let mut walls = walls.to_vec();
         walls.sort_by(|a, b| a.leg.cmp(&b.leg).then(place(a).total_cmp(&place(b))));
         walls
+    }
+    /// Walls on both sides of a leg, as far beside it, from corner to corner, none longer than `longest`; about the start a mouth that
+    /// is closed behind.
+    pub fn channel(&self, leg: usize, beside: f64, longest: f64) -> Vec<Wall> {
+        let (begin, end, way) = (self.path[leg], self.path[leg + 1], self.way(leg));
+        // where the lines beside two legs meet
+        let mitre = |corner: usize, side: f64| {
+            let (before, after) = (self.way(corner - 1).left(), self.way(corner).left());
+            self.path[corner] + (before + after) * (side * beside / (1.0 + before.dot(after)).max(0.2))
+        };
+        let mut lines: Vec<Vec<Point>> = Vec::new();
+        for side in [1.0, -1.0] {
+            let aside = |width: f64| way.left() * (side * width);
+            let mut line = Vec::new();
+            if leg > 0 {
+                line.push(mitre(leg, side));
+            } else {
+                let wide = self.start_radius + ROOM + MOUTH;
+                if side > 0.0 {
+                    lines.push([-1.0, 1.0].map(|side| begin - way * wide + aside(side * wide)).to_vec());
+                }
+                line.extend([-wide, self.start_radius].map(|along| begin + way * along + aside(wide)));
+                if beside < wide {
+                    line.push(begin + way * (self.start_radius + TAPER) + aside(beside));
+                }
+            }
+            line.push(if leg + 1 < self.legs() { mitre(leg + 1, side) } else { end + aside(beside) });
+            lines.push(line);
+        }
+        let stretches = lines.iter().flat_map(|line| line.windows(2).map(|ends| (ends[0], ends[1])));
+        let cut = |(from, to): (Point, Point)| {
+            let count = ((to - from).length() / longest).ceil().max(1.0) as usize;
+            let at = move |k: usize| from + (to - from) * (k as f64 / count as f64);
+            (0..count).map(move |k| Wall { at: Segment { from: at(k), to: at(k + 1) }, leg })
+        };
+        stretches.flat_map(cut).collect()
     }
     /// How far beyond a wall, along its leg, a target is: 0 at the line through the wall's farther end, but no later than
     /// `before_end` from the end of the leg.
@@ -158,6 +200,28 @@ pub(crate) mod tests {
         assert!(((gate.to - gate.from).unit().dot(Vector([-1.0, 1.0]).unit())).abs() < 1e-12);
         assert_eq!(task.along(5.0), (Vector([-1.0, 0.0]), 1));
         assert_eq!(task.along(99.0), (Vector([-4.0, 0.0]), 1));
+    }
+
+    #[test]
+    fn a_channel_has_no_gap_and_leaves_its_path_free() {
+        use space::segment::Relation;
+        let task = turn();
+        for beside in [0.6, 1.2] {
+            let legs = [0, 1].map(|leg| task.channel(leg, beside, 3.0));
+            let walls: Vec<Wall> = legs.concat();
+            assert!(walls.iter().all(|wall| wall.at.length() <= 3.0 + 1e-12));
+            // every end but those at the goal is the end of another wall
+            let ends: Vec<Point> = walls.iter().flat_map(|wall| [wall.at.from, wall.at.to]).collect();
+            let alone = |p: &&Point| ends.iter().filter(|q| (**q - **p).length() < 1e-9).count() == 1;
+            let alone: Vec<&Point> = ends.iter().filter(alone).collect();
+            assert_eq!(alone.len(), 2);
+            assert!(alone.iter().all(|p| (p[0] + 4.0).abs() < 1e-12 && (p[1].abs() - beside).abs() < 1e-12));
+            for leg in 0..2 {
+                let path = Segment { from: task.path[leg], to: task.path[leg + 1] };
+                assert!(walls.iter().all(|wall| wall.at.relation(&path) == Relation::Apart));
+            }
+            assert!(walls.iter().all(|wall| wall.at.distance(task.path[0]) >= task.start_radius + ROOM));
+        }
     }
 
     #[test]
