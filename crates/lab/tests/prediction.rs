@@ -82,7 +82,8 @@ fn members_have_the_state_that_they_are_made_of() {
         let members = Members::new(count);
         let positions: Vec<Option<Point>> = members.positions(&state, &[]).into_iter().map(Some).collect();
         let velocities: Vec<Option<Point>> = members.headings(&state).into_iter().map(Some).collect();
-        let found = State::of(&Moment { positions: &positions, velocities: &velocities, types: &[] }, 100.0, None).unwrap();
+        let found =
+            State::of(&Moment { positions: &positions, velocities: &velocities, types: &[] }, 100.0, None).unwrap();
         assert!((found.at - state.at).length() < 1e-9 && (found.heading - state.heading).length() < 1e-9);
         assert!(close(found.polarisation, state.polarisation), "{count}: {found:?} {state:?}");
         assert!(found.spread.iter().zip(state.spread).all(|(a, b)| close(*a, b)), "{count}: {found:?} {state:?}");
@@ -115,7 +116,8 @@ fn members_stand_before_walls() {
 fn a_spread_is_the_same_from_every_side() {
     let matrix = [2.0, 0.5, 1.0];
     let half = root(matrix);
-    let squared = [half[0] * half[0] + half[1] * half[1], half[1] * (half[0] + half[2]), half[1] * half[1] + half[2] * half[2]];
+    let squared =
+        [half[0] * half[0] + half[1] * half[1], half[1] * (half[0] + half[2]), half[1] * half[1] + half[2] * half[2]];
     assert!(squared.iter().zip(matrix).all(|(a, b)| close(*a, b)), "{squared:?}");
     let heading = Vector([0.6, 0.8]);
     let again = unseen(seen(matrix, heading), heading.0);
@@ -152,7 +154,8 @@ fn law(from: &State, sectors: &Sectors, walls: &[Wall]) -> State {
     let [along, oblique, across] = seen(from.spread, from.heading);
     let ahead = 0.1 + 0.05 * from.polarisation - 0.02 * near[0];
     let left = 0.02 * along - 0.01 * near[1];
-    let mean = from.heading * (0.2 + 0.5 * from.polarisation) + from.heading.left() * (0.1 + 0.05 * (near[5] - near[2]));
+    let mean =
+        from.heading * (0.2 + 0.5 * from.polarisation) + from.heading.left() * (0.1 + 0.05 * (near[5] - near[2]));
     let spread = [0.1 + 0.7 * along, 0.6 * oblique, 0.1 + 0.7 * across];
     State {
         at: from.at + from.heading * ahead + from.heading.left() * left,

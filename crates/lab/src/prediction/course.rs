@@ -94,7 +94,8 @@ pub fn predicted(
         let there = members.positions(&to, walls);
         for part in 1..=asked.every.min(last - step) {
             let share = part as f64 / asked.every as f64;
-            let between: Vec<Point> = now.iter().zip(&there).map(|(&now, &there)| now + (there - now) * share).collect();
+            let between: Vec<Point> =
+                now.iter().zip(&there).map(|(&now, &there)| now + (there - now) * share).collect();
             step += 1;
             settled = see(&between, &to);
             if settled {

@@ -85,9 +85,15 @@ pub fn run(
     let mut job = Job::of_file(KIND, &file, out, (program, threads))?;
     let path = job.folder.path().to_owned();
     let (mut log, mut there) = opened(&job.folder)?;
-    let before = there.simulated.len();
+    let before = there.constructs();
     let (simulate, predict) = (unsimulated(plan, &there), unpredicted(plan, &there));
-    watch.begin(&path, "constructs", simulate.len() + predict.len(), before + there.predicted.len(), threads);
+    watch.begin(
+        &path,
+        "constructs",
+        simulate.len() + predict.len(),
+        there.simulated.len() + there.predicted.len(),
+        threads,
+    );
     let began = Instant::now();
     let mut times = Times::default();
     let complete = simulated(plan, &simulate, threads, &mut there, &mut log, watch, &mut times);
@@ -100,7 +106,7 @@ pub fn run(
         (_, other) => other,
     };
     let seconds = began.elapsed().as_secs_f64();
-    let constructs = there.simulated.len() - before;
+    let constructs = there.constructs() - before;
     job.note(&[("seconds", json!(seconds)), ("constructs", json!(constructs)), ("trial_seconds", times.json())]);
     job.end(matches!(complete, Ok(true)))?;
     let (true, Some(models)) = (complete?, models) else {
@@ -141,6 +147,10 @@ fn finish(
 }
 
 impl There {
+    /// How many constructs were simulated.
+    fn constructs(&self) -> usize {
+        self.simulated.keys().filter(|(_, number)| *number != BARE).count()
+    }
     /// The simulated trials of a construct.
     fn courses(&self, lot: usize, number: u64) -> &[Course] {
         self.simulated.get(&(lot, number)).map_or(&[], Vec::as_slice)
@@ -394,7 +404,8 @@ fn results<'a>(plan: &'a Plan, there: &There, models: &[Option<Model>]) -> Resul
     let predicted = |model: usize, lot: usize, number: u64| {
         there.predicted.get(&(marks[model], lot, number)).copied().unwrap_or_default()
     };
-    let fits: Vec<Fit> = models.iter().map(|model| model.as_ref().map_or_else(Fit::default, |one| one.fit.clone())).collect();
+    let fits: Vec<Fit> =
+        models.iter().map(|model| model.as_ref().map_or_else(Fit::default, |one| one.fit.clone())).collect();
     let bare = marks.iter().enumerate().map(|(model, _)| predicted(model, 0, BARE).share).collect();
     Results::new(plan, &simulated, &predicted, fits, (share(plan, there.courses(0, BARE)), bare))
 }

@@ -142,8 +142,7 @@ impl Model {
             (share(squares(deviations.iter().map(|one| one[k]))), share(squares(left.iter().map(|one| one[k]))))
         });
         let transitions = given.len();
-        let fit =
-            Fit { transitions, cells: cells.count(), explained, through: through as f64 / transitions as f64 };
+        let fit = Fit { transitions, cells: cells.count(), explained, through: through as f64 / transitions as f64 };
         Some(Self { sectors, linear, deviations, cells, fit })
     }
     /// The state at the next look, with the draws of a key at this look. A deviation that would lead the centroid through a wall is drawn

@@ -234,9 +234,11 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
     let start = Span { source: tree.span.source, bytes: 0..0 };
     let base = files.scenario(form.scenario.as_ref(), &form.title, &form.set.0, &start, "prediction")?;
     let own = (HELD_OUT.to_owned(), PopulationForm { about: String::new(), set: crate::study::form::empty() });
-    let tests = form.test.0.iter().map(|(name, test)| {
-        (name.clone(), PopulationForm { about: test.about.clone(), set: test.set.clone() })
-    });
+    let tests = form
+        .test
+        .0
+        .iter()
+        .map(|(name, test)| (name.clone(), PopulationForm { about: test.about.clone(), set: test.set.clone() }));
     let given = Named(std::iter::once(own).chain(tests).collect());
     let populations = populations(&base, &given, workspace.workspace.units, files)?;
     named(files, &form, &tree);
@@ -248,7 +250,9 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         let mut constructs = form.constructs;
         if let Some((name, test)) = test {
             // what is given for a test stands in the place of what the file gives
-            let told = |name: &String| test.at.0.iter().any(|(own, _)| own == name) || test.range.0.iter().any(|(own, _)| own == name);
+            let told = |name: &String| {
+                test.at.0.iter().any(|(own, _)| own == name) || test.range.0.iter().any(|(own, _)| own == name)
+            };
             at.0.retain(|(name, _)| !told(name));
             ranges.0.retain(|(name, _)| !told(name));
             at.0.extend(test.at.0.iter().cloned());
@@ -324,7 +328,11 @@ fn drawn(
 fn tried(plan: &Plan, tree: &Node, files: &mut Files<'_>) {
     let desk = &mut files.desk;
     if plan.numbers(0, false).len() < 2 {
-        let what = format!("{} of {} constructs are left to fit a model to", plan.numbers(0, false).len(), plan.lots[0].constructs);
+        let what = format!(
+            "{} of {} constructs are left to fit a model to",
+            plan.numbers(0, false).len(),
+            plan.lots[0].constructs
+        );
         desk.problem(&tree.place("held_out"), what, "at least 2", "");
         return;
     }
@@ -341,7 +349,8 @@ fn tried(plan: &Plan, tree: &Node, files: &mut Files<'_>) {
             Ok(behaviour) => {
                 let (scenario, _) = plan.among(k, Some(&built.construct));
                 // stopped at once: that it can begin is what is asked
-                let begun = trial::run(&scenario, &lot.population, &[behaviour], plan.trial(k, 0, 1), &|| true, &mut |_| ());
+                let begun =
+                    trial::run(&scenario, &lot.population, &[behaviour], plan.trial(k, 0, 1), &|| true, &mut |_| ());
                 if let Err(what) = begun {
                     let what = format!("`{}` cannot begin: {what}", lot.population.name);
                     desk.problem(&tree.place("scenario"), what, "not possible", "");

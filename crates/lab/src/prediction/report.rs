@@ -108,7 +108,10 @@ fn observed(results: &Results<'_>, test: usize) -> Lines {
     Lines {
         id: format!("observed-{}", own.name),
         title: format!("{}: predicted and simulated", own.name),
-        about: format!("A dot for each of {} constructs and each predictor; on the line both shares are equal.", own.items.len()),
+        about: format!(
+            "A dot for each of {} constructs and each predictor; on the line both shares are equal.",
+            own.items.len()
+        ),
         x: share_axis("predicted share of successes"),
         y: share_axis("simulated share of successes"),
         lines: std::iter::once(identity()).chain(told(results).map(of)).collect(),
@@ -147,7 +150,11 @@ fn scores(results: &Results<'_>) -> Listing {
             let mut row = vec![own.name.clone(), name.to_owned()];
             row.extend(Score::ALL.into_iter().map(|score| {
                 let (value, low, high) = scored(results, test, by, score);
-                if low.is_finite() { format!("{} ({} to {})", short(value), short(low), short(high)) } else { short(value) }
+                if low.is_finite() {
+                    format!("{} ({} to {})", short(value), short(low), short(high))
+                } else {
+                    short(value)
+                }
             }));
             rows.push(row);
         }
@@ -180,12 +187,15 @@ fn ways(results: &Results<'_>, courses: Courses<'_>, models: &[Option<Model>]) -
         for item in test.items.iter().take(plan.form.show) {
             let built = plan.built(test.lot, item.number).ok()?;
             let parameters = parameters(results);
-            let values = parameters.iter().map(|(place, name, _)| {
-                format!("{name} {}", short(value(results, test.lot, item, *place)))
-            });
+            let values = parameters
+                .iter()
+                .map(|(place, name, _)| format!("{name} {}", short(value(results, test.lot, item, *place))));
             let values = values.collect::<Vec<_>>().join(", ");
             let mut draw = |what: &str, all: &[super::course::Course]| {
-                let mut drawing = Drawing { caption: format!("{} {} ({values}): {what}", test.name, item.number), ..Drawing::default() };
+                let mut drawing = Drawing {
+                    caption: format!("{} {} ({values}): {what}", test.name, item.number),
+                    ..Drawing::default()
+                };
                 put(&mut drawing, &plan.workspace.workspace.geometry, Stroke::There);
                 put(&mut drawing, built.construct.geometry(), Stroke::Built);
                 let longest = all.iter().map(|course| course.looks.len()).max().unwrap_or(0);
@@ -226,7 +236,8 @@ fn fits(results: &Results<'_>) -> Listing {
     };
     let names = OUTPUTS.iter().map(|(name, ..)| name.replace('_', " "));
     let header = ["model", "transitions", "cells"].map(str::to_owned).into_iter().chain(names);
-    let about: Vec<String> = OUTPUTS.iter().map(|(name, _, about)| format!("{}: {about}", name.replace('_', " "))).collect();
+    let about: Vec<String> =
+        OUTPUTS.iter().map(|(name, _, about)| format!("{}: {about}", name.replace('_', " "))).collect();
     Listing {
         title: "What a transition is told by".into(),
         about: format!(
@@ -241,10 +252,12 @@ fn fits(results: &Results<'_>) -> Listing {
 
 fn bare(results: &Results<'_>) -> Listing {
     let share = |share: crate::design::results::Share| {
-        let interval = share.interval().map_or_else(String::new, |(low, high)| format!(" ({} to {})", short(low), short(high)));
+        let interval =
+            share.interval().map_or_else(String::new, |(low, high)| format!(" ({} to {})", short(low), short(high)));
         format!("{} of {}{interval}", short(share.rate()), share.trials)
     };
-    let models = results.plan.form.model.0.iter().zip(&results.bare.1).map(|((name, _), of)| vec![name.clone(), share(*of)]);
+    let models =
+        results.plan.form.model.0.iter().zip(&results.bare.1).map(|((name, _), of)| vec![name.clone(), share(*of)]);
     Listing {
         title: "Without a construct".into(),
         about: "What the group does where nothing is built: shares of successes.".into(),
@@ -260,7 +273,9 @@ fn summary(results: &Results<'_>) -> Vec<Fact> {
         fact("Simulated trials of each", results.plan.trials.to_string()),
         fact("Predicted trials of each", results.plan.predicted.to_string()),
     ];
-    facts.extend(results.tests.iter().map(|test| fact(&format!("Constructs of {}", test.name), test.items.len().to_string())));
+    facts.extend(
+        results.tests.iter().map(|test| fact(&format!("Constructs of {}", test.name), test.items.len().to_string())),
+    );
     facts
 }
 
@@ -272,16 +287,26 @@ fn methods(results: &Results<'_>) -> Vec<String> {
         let models: Vec<String> = models.map(|(_, own)| format!("{} of {}", own.count, own.model.id)).collect();
         let ranges: Vec<String> =
             lot.drawn.iter().map(|one| format!("{} from {} to {}", one.name, one.axis.low, one.axis.high)).collect();
-        let about = if lot.population.about.is_empty() { String::new() } else { format!(" ({})", lot.population.about) };
+        let about =
+            if lot.population.about.is_empty() { String::new() } else { format!(" ({})", lot.population.about) };
         let ranges = if ranges.is_empty() { "nothing".to_owned() } else { ranges.join(", ") };
-        format!("{}{about}: {} constructs, drawn {ranges}, {}", lot.population.name, lot.constructs, models.join(" and "))
+        format!(
+            "{}{about}: {} constructs, drawn {ranges}, {}",
+            lot.population.name,
+            lot.constructs,
+            models.join(" and ")
+        )
     };
     let models: Vec<String> = form
         .model
         .0
         .iter()
         .map(|(name, model)| {
-            let cells = if model.cells { format!("cells of {} transitions at least", model.least) } else { "no cells".to_owned() };
+            let cells = if model.cells {
+                format!("cells of {} transitions at least", model.least)
+            } else {
+                "no cells".to_owned()
+            };
             format!("{name}: {} sectors that see {} far, {cells}", model.sectors, model.reach)
         })
         .collect();
@@ -338,5 +363,9 @@ fn csv(results: &Results<'_>) -> Table {
             csv += &format!("{},{},{}{trials},{rate},{}\n", test.name, item.number, values.concat(), chances.join(","));
         }
     }
-    Table { file: "predictions.csv".into(), about: "The constructs of the tests: simulated and predicted shares.".into(), csv }
+    Table {
+        file: "predictions.csv".into(),
+        about: "The constructs of the tests: simulated and predicted shares.".into(),
+        csv,
+    }
 }

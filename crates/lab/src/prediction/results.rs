@@ -116,7 +116,8 @@ impl<'a> Results<'a> {
             Item { number, values, simulated, updates, chances: Vec::new(), transitions: Vec::new() }
         };
         let numbers = plan.numbers(0, false).into_iter();
-        let training: Vec<Item> = numbers.map(|number| item(0, number)).filter(|item| item.simulated.trials > 0).collect();
+        let training: Vec<Item> =
+            numbers.map(|number| item(0, number)).filter(|item| item.simulated.trials > 0).collect();
         let drawn = &plan.lots[0].drawn;
         let known: Vec<(&[f64], f64)> =
             training.iter().map(|item| (item.values.as_slice(), item.simulated.rate())).collect();
@@ -152,12 +153,10 @@ impl<'a> Results<'a> {
     }
     /// Results of made-up constructs, to find out whether statements have a meaning.
     pub(super) fn example(plan: &'a Plan) -> Self {
-        let simulated = |lot: usize, number: u64| {
-            let _ = lot;
-            (Share { successes: 1 + number % 2, trials: 3 }, 100)
-        };
-        let predicted = |_: usize, _: usize, number: u64| {
-            Predicted { share: Share { successes: 1 + number % 3, trials: 4 }, transitions: 10 }
+        let simulated = |_: usize, number: u64| (Share { successes: 1 + number % 2, trials: 3 }, 100);
+        let predicted = |_: usize, _: usize, number: u64| Predicted {
+            share: Share { successes: 1 + number % 3, trials: 4 },
+            transitions: 10,
         };
         let share = Share { successes: 1, trials: 2 };
         let models = plan.form.model.0.len();
@@ -258,8 +257,14 @@ impl Score {
 
 /// What statements can ask for, with what it is.
 pub const NAMES: [(&str, &str); 11] = [
-    ("brier", "Brier score: mean squared difference of the predicted chance and the outcome of a trial, over a test's constructs"),
-    ("log_loss", "mean logarithmic loss of a trial; no chance is less than that of half a success among the predicted trials"),
+    (
+        "brier",
+        "Brier score: mean squared difference of the predicted chance and the outcome of a trial, over a test's constructs",
+    ),
+    (
+        "log_loss",
+        "mean logarithmic loss of a trial; no chance is less than that of half a success among the predicted trials",
+    ),
     ("mae", "mean absolute error of the share of successes"),
     ("bias", "mean error of it: predicted less simulated"),
     ("spearman", "rank correlation of predicted and simulated shares of successes"),
@@ -310,7 +315,8 @@ impl Data for Results<'_> {
                 _ => return Err(Mistake::new(selector.bytes.clone(), "a name is needed here")),
             };
             *place = Some(list.iter().position(|known| *known == level).ok_or_else(|| {
-                let what = format!("there is no {} `{level}`", if selector.factor == "by" { "predictor" } else { "test" });
+                let what =
+                    format!("there is no {} `{level}`", if selector.factor == "by" { "predictor" } else { "test" });
                 Mistake { help: hint(&level, list), ..Mistake::new(selector.bytes.clone(), what) }
             })?);
         }

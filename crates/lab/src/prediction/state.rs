@@ -118,9 +118,7 @@ impl Members {
     pub fn new(count: usize) -> Self {
         // evenly over a disc, by turns of the golden angle
         let golden = core::f64::consts::PI * (3.0 - 5.0f64.sqrt());
-        let place = |k: usize| {
-            Vector::at_angle(golden * k as f64) * ((k as f64 + 0.5) / count as f64).sqrt()
-        };
+        let place = |k: usize| Vector::at_angle(golden * k as f64) * ((k as f64 + 0.5) / count as f64).sqrt();
         let mut places: Vec<Point> = (0..count).map(place).collect();
         let middle = centroid(&places).unwrap_or(Vector::ZERO);
         let mut products = [0.0; 3];

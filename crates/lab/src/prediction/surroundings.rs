@@ -75,7 +75,9 @@ impl Sectors {
                 let (lower, upper) = (self.edges[k], self.edges[(k + 1) % count]);
                 // the part of the wall between both edges
                 let (mut first, mut last) = (0.0f64, 1.0f64);
-                for (start, change) in [(cross(lower, from), cross(lower, along)), (cross(from, upper), cross(along, upper))] {
+                for (start, change) in
+                    [(cross(lower, from), cross(lower, along)), (cross(from, upper), cross(along, upper))]
+                {
                     if change == 0.0 {
                         if start < 0.0 {
                             last = -1.0;

@@ -40,7 +40,8 @@ pub fn write(folder: &Folder, results: &Results<'_>, courses: Courses<'_>) -> Re
 
 /// Every construct: the word for its part, its lot, and what came of it.
 fn rows<'a>(results: &'a Results<'_>) -> Vec<(&'a str, usize, &'a Item)> {
-    let tests = results.tests.iter().flat_map(|test| test.items.iter().map(|item| (test.name.as_str(), test.lot, item)));
+    let tests =
+        results.tests.iter().flat_map(|test| test.items.iter().map(|item| (test.name.as_str(), test.lot, item)));
     results.training.iter().map(|item| (TRAINING, 0, item)).chain(tests).collect()
 }
 
