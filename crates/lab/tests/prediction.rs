@@ -238,3 +238,57 @@ fn a_group_as_a_whole_does_not_go_through_walls() {
     }
     assert!(far > 0.5, "it goes about");
 }
+
+/// What is held out of the template's eight walls, with shares that are made up.
+#[test]
+fn scores_as_worked_out() {
+    use lab::design::results::Share;
+    use lab::prediction::results::{Item, Predicted, Results, Score};
+    let set = ["constructs=8", "predicted=9"].map(str::to_owned);
+    let text = lab::prediction::TEMPLATE;
+    let plan = lab::prediction::read("wall.toml", text, &set, false, &mut |_| Err("no other file".into())).unwrap();
+    assert_eq!((plan.numbers(0, true), plan.numbers(0, false)), (vec![3, 7], vec![0, 1, 2, 4, 5, 6]));
+    // of what is not held out half succeed, but all of the wall that is nearest to wall 3
+    let built = |number: u64| plan.built(0, number).unwrap().values;
+    let apart = |number: &u64| -> f64 {
+        let one = |k: usize| {
+            let axis = plan.lots[0].drawn[k].axis;
+            let share = ((built(*number)[k] - built(3)[k]) / (axis.high - axis.low)).abs();
+            // an angle is near from both sides
+            if k == 0 { share.min(1.0 - share).powi(2) } else { share * share }
+        };
+        one(0) + one(1)
+    };
+    let nearest = plan.numbers(0, false).into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap();
+    let simulated = |lot: usize, number: u64| match (lot, number) {
+        (0, 3) => (Share { successes: 1, trials: 2 }, 140),
+        (0, 7) => (Share { successes: 4, trials: 4 }, 280),
+        (0, number) if number == nearest => (Share { successes: 2, trials: 2 }, 1),
+        _ => (Share { successes: 1, trials: 2 }, 1),
+    };
+    let predicted = |model: usize, _: usize, number: u64| {
+        let successes = if number == 3 { 3 } else { 9 * (1 - model as u64) };
+        Predicted { share: Share { successes, trials: 9 }, transitions: 90 }
+    };
+    let share = Share { successes: 1, trials: 2 };
+    let results = Results::new(&plan, &simulated, &predicted, Vec::new(), (share, vec![share; 2]));
+    let items: Vec<&Item> = results.tests[0].items.iter().collect();
+    assert_eq!((results.tests.len(), results.tests[1].items.len(), results.training.len()), (2, 10, 6));
+    let score = |score, by| results.score(score, &items, by);
+    // by the mean: 7 of 12 succeed
+    let p: f64 = 7.0 / 12.0;
+    assert!(close(score(Score::Brier, 0), (0.5 * (p * p + (1.0 - p) * (1.0 - p)) + (1.0 - p) * (1.0 - p)) / 2.0));
+    assert!(close(score(Score::Bias, 0), p - 0.75) && score(Score::Spearman, 0).is_nan());
+    assert!(items[0].chances[1] > 0.5, "the nearest wall counts: {:?}", items[0]);
+    // by the first model a third and all, by the second a third and none
+    assert!(close(score(Score::Brier, 2), (0.5 * (1.0 / 9.0 + 4.0 / 9.0)) / 2.0));
+    assert!(
+        close(score(Score::Mae, 2), (0.5 - 1.0 / 3.0) / 2.0)
+            && close(score(Score::Mae, 3), (0.5 - 1.0 / 3.0 + 1.0) / 2.0)
+    );
+    // no chance is less than that of half a success among the nine
+    let loss = -0.5 * (0.5 * (1.0f64 / 3.0).ln() + 0.5 * (2.0f64 / 3.0).ln());
+    assert!(close(score(Score::LogLoss, 3), loss - 0.5 * 0.05f64.ln()));
+    // of two trials at an even chance half are off by a half
+    assert!(close(results.sampling(&items), 0.125));
+}

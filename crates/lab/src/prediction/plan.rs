@@ -204,6 +204,7 @@ impl Plan {
         (form.claim, form.model) = (Vec::new(), Named::default());
         (form.scenario, form.show, form.predicted, form.quick_predicted) = (None, 0, 1, 1);
         (form.constructs, form.quick_constructs) = (2, 2);
+        form.test.0.iter_mut().for_each(|(_, test)| (test.about, test.constructs) = (String::new(), 1));
         let scenario = |lot: &Lot| {
             let mut scenario = lot.population.scenario.clone();
             (scenario.title, scenario.about, scenario.seed) = (String::new(), String::new(), None);

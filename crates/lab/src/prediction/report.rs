@@ -208,16 +208,16 @@ fn ways(results: &Results<'_>, courses: Courses<'_>, models: &[Option<Model>]) -
             let simulated = item.simulated;
             let what = format!("simulated, {} of {} succeed", simulated.successes, simulated.trials);
             draw(&what, courses(test.lot, item.number));
-            for (k, (name, _)) in plan.form.model.0.iter().enumerate() {
-                let Some(model) = &models[k] else { continue };
-                let all = foretold(plan, model, test.lot, Some(item.number), &begun, &|| false).ok()??;
-                draw(&format!("by {name}, {} succeed", short(item.chances[BASELINES.len() + k])), &all);
-            }
+            // one model, so that both stand side by side
+            let (Some((name, _)), Some(Some(model))) = (plan.form.model.0.first(), models.first()) else { continue };
+            let all = foretold(plan, model, test.lot, Some(item.number), &begun, &|| false).ok()??;
+            draw(&format!("by {name}, {} succeed", short(item.chances[BASELINES.len()])), &all);
         }
     }
     (!drawings.is_empty()).then(|| Drawings {
         title: "Ways of the group".into(),
-        about: format!("The ways of the centroid in at most {WAYS} trials, from blue to orange with time; a trial ends when it is decided."),
+        about: format!("The ways of the centroid in at most {WAYS} simulated trials, and in as many that the first model predicts, from blue to orange with \
+             time; a trial ends when it is decided."),
         bounds: None,
         drawings,
     })
