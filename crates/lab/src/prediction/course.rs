@@ -80,29 +80,28 @@ pub fn predicted(
 ) -> Course {
     let mut watch = asked.behaviour.watch();
     let mut looks = vec![*start];
-    let (mut now, mut state) = (members.positions(start, walls), *start);
-    let mut see = |positions: &[Point], state: &State| {
-        let positions: Vec<Option<Point>> = positions.iter().copied().map(Some).collect();
-        let velocities: Vec<Option<Point>> = members.headings(state).into_iter().map(Some).collect();
-        watch.step(&Moment { positions: &positions, velocities: &velocities, types: &asked.population.types });
+    let there = |all: Vec<Point>| -> Vec<Option<Point>> { all.into_iter().map(Some).collect() };
+    let mut see = |positions: Vec<Point>, velocities: &[Option<Point>]| {
+        let positions = there(positions);
+        watch.step(&Moment { positions: &positions, velocities, types: &asked.population.types });
         watch.settled()
     };
+    let (mut now, mut state) = (members.positions(start, walls), *start);
     let (mut step, last) = (0, asked.population.steps);
-    let mut settled = see(&now, &state);
+    let mut settled = see(now.clone(), &there(members.headings(start)));
     while step < last && !settled {
         let to = model.step(&state, walls, key, step / asked.every);
-        let there = members.positions(&to, walls);
+        let (next, headings) = (members.positions(&to, walls), there(members.headings(&to)));
         for part in 1..=asked.every.min(last - step) {
             let share = part as f64 / asked.every as f64;
-            let between: Vec<Point> =
-                now.iter().zip(&there).map(|(&now, &there)| now + (there - now) * share).collect();
+            let between = now.iter().zip(&next).map(|(&now, &next)| now + (next - now) * share).collect();
             step += 1;
-            settled = see(&between, &to);
+            settled = see(between, &headings);
             if settled {
                 break;
             }
         }
-        (now, state) = (there, to);
+        (now, state) = (next, to);
         looks.push(state);
     }
     Course { fitness: watch.fitness(), steps: step, looks }

@@ -324,7 +324,6 @@ pub(super) fn starts(plan: &Plan, lot: usize, count: usize) -> Result<Vec<Option
 }
 
 /// Predicts; whether all is done.
-#[allow(clippy::too_many_arguments, reason = "what a session of work has")]
 fn predicted(
     plan: &Plan,
     models: &[Option<Model>],

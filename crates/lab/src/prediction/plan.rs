@@ -110,7 +110,7 @@ impl Plan {
         let all = self.lots.iter().enumerate().skip(usize::from(!held));
         all.map(|(k, lot)| (k, lot.population.name.as_str())).collect()
     }
-    /// The numbers of the constructs of a test; those of the first lot to which models are fitted, without `held_out`.
+    /// The numbers of the constructs of a lot that are held out, or of those that are not.
     pub fn numbers(&self, lot: usize, held_out: bool) -> Vec<u64> {
         (0..self.lots[lot].constructs).filter(|&number| self.held_out(lot, number) == held_out).collect()
     }

@@ -69,14 +69,12 @@ pub struct Results<'a> {
 /// The chance of success told by the nearest constructs of known shares: the mean of so many.
 fn by_neighbours(drawn: &[Drawn], known: &[(&[f64], f64)], values: &[f64], count: usize) -> f64 {
     let apart = |other: &[f64]| -> f64 {
-        let one = |(k, drawn): (usize, &Drawn)| {
-            // constructs of a lot with other parameters have none of these in another place
-            let (Some(a), Some(b)) = (values.get(k), other.get(k)) else { return 0.0 };
+        let one = |(drawn, (a, b)): (&Drawn, (&f64, &f64))| {
             let share = ((a - b) / (drawn.axis.high - drawn.axis.low)).abs();
             let share = if drawn.axis.periodic { share.min(1.0 - share) } else { share };
             share * share
         };
-        drawn.iter().enumerate().map(one).sum()
+        drawn.iter().zip(values.iter().zip(other)).map(one).sum()
     };
     let mut all: Vec<(f64, f64)> = known.iter().map(|(other, rate)| (apart(other), *rate)).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
