@@ -12,6 +12,7 @@ pub mod gallery;
 pub mod live;
 pub mod map;
 pub mod optimisation;
+pub mod prediction;
 pub mod report;
 pub mod run;
 pub mod scenario;

@@ -7,6 +7,7 @@ mod evolution;
 mod formation;
 mod map;
 mod optimisation;
+mod prediction;
 mod progress;
 mod scenario;
 pub mod study;
@@ -33,6 +34,7 @@ pub const LIST: &[&dyn Kind] = &[
     &map::Map,
     &optimisation::Optimisation,
     &decomposition::Decomposition,
+    &prediction::Prediction,
     &formation::Formation,
     &tracks::Tracks,
 ];
