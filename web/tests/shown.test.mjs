@@ -227,6 +227,25 @@ describe("searches", () => {
     await page.locator(".best").first().waitFor();
   }));
 
+  test("a formation file runs live, and goes on when it is told to", () => opened(["studies/formations/comparison.toml"], async (page) => {
+    await page.locator(".time[data-step='0']").waitFor();
+    assert.equal(await page.locator("[data-do=go_on]").isVisible(), false, "the piloting that the page plays goes along by itself");
+    await page.locator("[data-path=method] select").selectOption("formation_6");
+    await page.locator("[data-do=go_on]").waitFor();
+    assert.match(await page.locator("h1").innerText(), /task 1, formation_6, trial 1/);
+    await playing(page);
+    const step = await page.locator(".time").getAttribute("data-step");
+    await page.locator("[data-do=go_on]").click();
+    await page.locator("#events li", { hasText: "next formation" }).waitFor();
+    await page.screenshot({ path: `${pictures}/view-formation-live.png` });
+    await page.locator("input.agent").fill("1");
+    await page.locator(".overlay .arrow.component").first().waitFor();
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.locator("[data-do=save]").click()]);
+    await saved.saveAs(`${scratch}/told.toml`);
+    const given = readFileSync(`${scratch}/told.toml`, "utf8");
+    assert.equal(Number(/switch_at = \[([^\]]*)\]/.exec(given)[1]), Number((0.2 * Number(step)).toPrecision(12)));
+  }));
+
   test("a formation: tasks by methods, and a trial with robots and walls", () => opened([`${scratch}/formation`], async (page) => {
     await page.locator(".multiple").first().waitFor();
     assert.equal(await page.locator(".multiple").count(), 19);
