@@ -500,3 +500,62 @@ fn a_formation_goes_on_when_it_is_told_to_and_its_times_give_the_same_trial() {
     tell(&mut silent, &json!({ "do": "set", "path": "method", "value": "wals" }));
     assert!(until(&mut silent, "problem")["text"].as_str().unwrap().contains("no method"));
 }
+
+#[test]
+fn a_decomposition_shows_its_approaches_and_simulates_any_trial_again() {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("view-decomposition");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let program = |arguments: &[&str]| {
+        let run = Command::new(env!("CARGO_BIN_EXE_flockworks")).current_dir(&folder).args(arguments).output().unwrap();
+        assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+        String::from_utf8_lossy(&run.stdout).into_owned()
+    };
+    let stretch = "[interval.bend]\nabout = \"comes apart\"\nline = 1\nfrom = 40\nto = 60\nbehaviour.is.simple-split = {}\n\
+                   [vary]\nangles = [0]\nlengths = [1]\nquick_trials = 1\n[scenario]\n";
+    let template = program(&["new", "decomposition"]);
+    let marked = template.replacen("[scenario]\n", stretch, 1);
+    assert_ne!(marked, template);
+    std::fs::write(folder.join("bend.toml"), marked).unwrap();
+    program(&["run", "bend.toml", "--quick", "--out", "bend", "--set", "offsets=2"]);
+    let server = served(&[folder.join("bend").to_str().unwrap()]);
+    let port = server.port;
+    let host = format!("127.0.0.1:{port}");
+    let overview = body(&got(port, "/search/0", &host));
+    let (clusters, approaches) = (overview["clusters"].as_array().unwrap(), overview["approaches"].as_array().unwrap());
+    assert!(clusters.len() > 1 && overview["tried"] == overview["planned"], "{overview}");
+    let counted: u64 = clusters.iter().map(|cluster| cluster["approaches"].as_u64().unwrap()).sum();
+    assert_eq!(counted as usize, approaches.len());
+    let numbers = overview["numbers"].as_array().unwrap().len();
+    assert!(approaches.iter().all(|one| one["found"].as_array().unwrap().len() == numbers));
+    let variations = &overview["intervals"][0]["variations"];
+    assert_eq!((&variations[0]["angle"], &variations[1]["angle"]), (&json!(0.0), &json!(null)));
+    let medoid = |cluster: &Value| approaches[cluster["medoid"].as_u64().unwrap() as usize]["approach"].clone();
+    let first = medoid(&clusters[0]);
+    let part = body(&got(port, &format!("/search/0/part?approach={first}&offset=0"), &host));
+    assert!(part["drawing"]["built"].as_array().is_some_and(|lines| !lines.is_empty()), "{part}");
+    assert!(got(port, "/search/0/part?approach=99999", &host).contains("there is no approach 99999"));
+    assert!(got(port, "/search/0/part?interval=0&variation=2", &host).contains("there is no variation 2"));
+
+    let mut watched = socket(port, &format!("http://{host}")).unwrap();
+    tell(&mut watched, &json!({ "do": "open", "given": 0, "at": { "approach": first, "trial": 1 } }));
+    let scene = until(&mut watched, "scene");
+    assert!(scene["kind"] == "live" && scene["title"].as_str().unwrap().contains("approached at"), "{scene}");
+    frame(&mut watched);
+    let now = stepped(&mut watched, 1, 60);
+    // the file that the run wrote of the medoid is the same trial
+    let file = folder.join(format!("bend/environments/{}.toml", clusters[0]["name"].as_str().unwrap()));
+    let other = served(&[file.to_str().unwrap()]);
+    let mut written = socket(other.port, &format!("http://127.0.0.1:{}", other.port)).unwrap();
+    tell(&mut written, &json!({ "do": "open", "given": 0 }));
+    frame(&mut written);
+    assert_eq!(stepped(&mut written, 1, 60)[4..], now[4..]);
+    // another offset is another trial, and a variation is watched as well
+    let mut moved = socket(port, &format!("http://{host}")).unwrap();
+    tell(&mut moved, &json!({ "do": "open", "given": 0, "at": { "approach": first, "offset": 0, "trial": 1 } }));
+    let beside = until(&mut moved, "obstacles");
+    assert_ne!(beside["list"], json!([]));
+    tell(&mut moved, &json!({ "do": "open", "given": 0, "at": { "interval": 0, "variation": 0, "trial": 2 } }));
+    let scene = until(&mut moved, "scene");
+    assert!(scene["title"].as_str().unwrap().contains("bend, turned by 0"), "{scene}");
+}
