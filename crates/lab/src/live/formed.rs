@@ -221,11 +221,11 @@ impl Shown for Formed {
         let wrong = || LiveError::Request(format!("{value} is no {path} of `{}`", self.name));
         match path {
             "task" => {
-                let found = self.plan.tasks.iter().position(|task| value == &json!(task.name));
+                let found = self.plan.tasks.iter().position(|task| value.as_str() == Some(task.name.as_str()));
                 task = found.ok_or_else(wrong)?;
             }
             "method" => {
-                let found = self.plan.methods.iter().position(|method| value == &json!(method.name));
+                let found = self.plan.methods.iter().position(|method| value.as_str() == Some(method.name.as_str()));
                 method = found.ok_or_else(wrong)?;
             }
             "trial" => {
