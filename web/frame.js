@@ -99,7 +99,7 @@ export function readScene(message) {
   const space = message.space ?? {};
   const axes = [0, 1, 2].slice(0, dimensions);
   return {
-    isRun: message.kind === "run", of: text(message.of), recording: text(message.recording),
+    isRun: message.kind === "run", of: text(message.of), goesOn: message.goes_on === true, recording: text(message.recording),
     numbered: isNumber(message.numbered?.first) && isNumber(message.numbered?.by) ? { first: message.numbered.first, by: message.numbered.by } : null, title: text(message.title, "Untitled"), about: text(message.about),
     seed: number(message.seed), dimensions, groups,
     units: { length: text(message.units?.length), time: text(message.units?.time) },

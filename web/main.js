@@ -136,7 +136,7 @@ const told = {
 // ------------------------------------------------ what is shown
 
 // frames count from 0, as on the command line
-const whereIs = (now, step) => (now.of ? `frame ${frameOf(step)} of ${now.frames - 1}${now.numbered && now.numbered.first !== 0 ? `, number ${now.numbered.first + now.numbered.by * frameOf(step)}` : ""}`
+const whereIs = (now, step) => (now.isRun && now.of ? `frame ${frameOf(step)} of ${now.frames - 1}${now.numbered && now.numbered.first !== 0 ? `, number ${now.numbered.first + now.numbered.by * frameOf(step)}` : ""}`
   : now.isRun ? `step ${step}, frame ${frameOf(step)} of ${now.frames - 1}` : `step ${step}${now.steps === null ? "" : ` of ${now.steps}`}`);
 const frameOf = (step) => Math.round((step - scene().fromStep) / scene().everySteps);
 
@@ -151,7 +151,8 @@ function showScene(now, isSame) {
   panel.show(now.controls);
   one("#parameters").hidden = now.controls.length === 0;
   button("save").hidden = now.isRun;
-  one("#focal .hint").hidden = now.of !== "";
+  button("go_on").hidden = !now.goesOn;
+  one("#focal .hint").hidden = now.isRun && now.of !== "";
   one("#focal .hint.recorded-hint").hidden = now.of !== "tracks";
   one("#focal").hidden = now.of === "course";
   showRecordings();
@@ -312,6 +313,7 @@ const acts = {
   reverse: () => play(-1), play: () => play(1),
   reset, fit: () => { forEachPane((pane) => { if (pane.camera !== "still") pane.camera = "still"; pane.fit(); }); showStatus(); },
   save: () => lead()?.send({ do: "save" }),
+  go_on: () => { if (!scene()?.goesOn) return; lead().send({ do: "go_on" }); say("Next formation"); },
   previous: () => focusNext(-1), next: () => focusNext(1), nobody: () => focus(null),
   closer: () => { (active ?? lead())?.closer(); showStatus(); },
 };
@@ -353,6 +355,7 @@ const KEYS = [
   ["Shift and drag", "move a view in space", {}],
   ["0", "see everything", { 0: acts.fit }],
   ["T", "trails", { t: () => flip(at.trails) }],
+  ["G", "robots in the places of walls: the next formation", { g: acts.go_on }],
   ["S", "save the scenario", { s: () => !isRun() && acts.save() }],
   ["M", "the gallery", { m: acts.gallery }],
   ["U", "the overview of a search", { u: acts.overview }],

@@ -39,7 +39,7 @@ export function boundsOfDrawing(drawing) {
 /** Both bounds in one. */
 export const joined = (a, b) => (a && b ? [[0, 1].map((k) => Math.min(a[0][k], b[0][k])), [0, 1].map((k) => Math.max(a[1][k], b[1][k]))] : a ?? b);
 
-/** An environment: what was there, what was built, what is structure only (dashed), marks. */
+/** An environment: what was there, what was built, what is structure only (dashed), marks. Gives the function from places to pixels. */
 export function drawDrawing(pen, drawing, bounds, wide, tall, named = css()) {
   const [low, high] = bounds ?? boundsOfDrawing(drawing), room = Math.min(10, wide * 0.05);
   const scale = Math.min((wide - 2 * room) / Math.max(1e-9, high[0] - low[0]), (tall - 2 * room) / Math.max(1e-9, high[1] - low[1]));
@@ -61,6 +61,7 @@ export function drawDrawing(pen, drawing, bounds, wide, tall, named = css()) {
   pen.strokeStyle = named("series-1");
   pen.lineWidth = 1.4;
   for (const mark of drawing.marks) { const [x, y] = at(mark); line(pen, [[x - 4, y], [x + 4, y]]); pen.stroke(); line(pen, [[x, y - 4], [x, y + 4]]); pen.stroke(); }
+  return at;
 }
 
 /** The frame of a chart with numbers along its axes; gives the functions from values to places. `label` says what a height stands for. */

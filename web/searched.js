@@ -1,5 +1,6 @@
-// Searches: studies, evolutions, designs, maps, optimisations, formations. Each kind is one file and one line of this list.
+// Searches: studies, evolutions, designs, maps, optimisations, decompositions, formations. Each kind is one file and one line of this list.
 
+import { DecompositionView } from "./decomposition.js";
 import { DesignView } from "./design.js";
 import { EvolutionView } from "./evolution.js";
 import { FormationView } from "./formation.js";
@@ -8,7 +9,7 @@ import { OptimisationView } from "./optimisation.js";
 import { StudyView } from "./study.js";
 import { element, one, paragraphs } from "./words.js";
 
-const VIEWS = { study: StudyView, evolution: EvolutionView, design: DesignView, map: MapView, optimisation: OptimisationView, formation: FormationView };
+const VIEWS = { study: StudyView, evolution: EvolutionView, design: DesignView, map: MapView, optimisation: OptimisationView, decomposition: DecompositionView, formation: FormationView };
 
 /** What the server answers to a question of plain JSON. */
 export async function answer(address, options = {}) {

@@ -16,6 +16,7 @@ const SCENARIOS = {
   scanner: { title: "Robots with laser scanners", about: "Sixteen robots between walls see by rays only.", dimensions: 2, agents: 16, size: 6, edges: "walls", rays: true, zones: true, radius: 0.12 },
   open: { title: "An open plane", about: "Nothing ends this space.", dimensions: 2, agents: 120, size: 10, edges: "open", zones: true },
   line: { title: "On a line", about: "Thirty agents in one dimension.", dimensions: 1, agents: 30, size: 20, edges: "periodic" },
+  robots: { title: "Robots in the places of walls", about: "They go on when one says so.", dimensions: 2, agents: 6, size: 10, edges: "open", of: "formation" },
   nobody: { title: "Nobody", about: "A space without agents.", dimensions: 2, agents: 0, size: 10, edges: "walls" },
   many: { title: "Twenty thousand", about: "As many as the page must draw twenty times a second.", dimensions: 2, agents: 20000, size: 200, edges: "periodic" },
   crowd: { title: "A hundred thousand", about: "More than the page must draw quickly.", dimensions: 2, agents: 100000, size: 400, edges: "periodic" },
@@ -194,7 +195,7 @@ class Session {
       }
     }
     this.say({
-      is: "scene", kind: plan.run ? "run" : "live", title: plan.title, about: plan.about, seed, dimensions: plan.dimensions,
+      is: "scene", kind: plan.run ? "run" : "live", of: plan.of ?? "", goes_on: plan.of === "formation", title: plan.title, about: plan.about, seed, dimensions: plan.dimensions,
       units: { length: "m", time: "s" }, space: { edges: axes.map(() => plan.edges), size: axes.map(() => plan.size), low: axes, high: axes.map(() => plan.size) },
       groups: [{ name: "fish", model: "invented_zones", title: "Invented zones", first: 0, count: plan.agents, radius: plan.radius ?? 0.08 },
         ...(plan.second ? [{ name: "hunters", model: "invented_zones", title: "Invented hunters", first: plan.agents, count: plan.second, radius: 0.12 }] : [])],
@@ -261,6 +262,7 @@ class Session {
       this.flock.values[message.path] = message.value;
       this.say({ is: "event", step: this.flock.step, t: this.flock.step * STEP, what: `${message.path} became ${message.value}` });
     }
+    if (what === "go_on") this.say({ is: "event", step: this.flock.step, t: this.flock.step * STEP, what: "next formation" });
     if (what === "focus") { this.focus = message.agent; if (message.agent !== null) this.say({ is: "explain", explanation: this.flock.explain(message.agent) }); }
     if (what === "save") this.say({ is: "file", text: `title = "${this.plan.title}"\nspeed = ${this.flock.values["group.fish.model.speed"]}\n` });
     if (what === "seen") { this.unseen = this.number - message.number; if (this.stale) this.tell(); }

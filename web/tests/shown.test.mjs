@@ -52,6 +52,18 @@ before(async () => {
   run("run", "studies/environments/fig-7.10.toml", "--set", "axis.angle.cells=6", "--set", "axis.length.cells=3", "--set", "trials=2", "--out", `${scratch}/map`);
   run("run", "studies/environments/optimise-dirt.toml", "--quick", "--set", "quick_evaluations=20", "--set", "trials=2", "--set", "confirm_trials=6", "--set", "finalists=2", "--set", "control_trials=6", "--set", "lighten.trials=6", "--out", `${scratch}/optimisation`);
   run("run", "studies/formations/table-8.1.toml", "--set", "trials=1", "--set", "set.time.duration=60", "--out", `${scratch}/formation`);
+  writeFileSync(`${scratch}/bend.toml`, run("new", "decomposition").replace("[scenario]\n", `[interval.bend]
+about = "comes apart"
+line = 1
+from = 40
+to = 60
+behaviour.is.simple-split = {}
+[vary]
+angles = [0]
+lengths = [1]
+[scenario]
+`));
+  run("run", `${scratch}/bend.toml`, "--quick", "--out", `${scratch}/decomposition`, "--set", "offsets=2");
   run("run", "studies/tracks/sticklebacks.toml", "--out", `${scratch}/tracks`);
   run("run", "studies/tracks/corridor.toml", "--out", `${scratch}/corridor`);
   writeFileSync(`${scratch}/several.toml`, SEVERAL);
@@ -227,6 +239,53 @@ describe("searches", () => {
     await page.locator(".best").first().waitFor();
   }));
 
+  test("a decomposition: clusters on the construct, an approach with what was found, and its trial", () => opened([`${scratch}/decomposition`], async (page) => {
+    await page.locator(".whole").waitFor();
+    assert.ok(await coloursOf(page, ".whole") > 3);
+    const clusters = page.locator("table", { hasText: "Clusters" }).first().locator("tbody tr");
+    assert.ok(await clusters.count() > 1);
+    await clusters.first().locator("button").click();
+    await page.locator(".detail h2").waitFor();
+    await page.waitForFunction(() => { const canvas = document.querySelector(".large"), pen = canvas.getContext("2d"); return new Set(new Uint32Array(pen.getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size > 4; });
+    await copies(page);
+    await page.screenshot({ path: `${pictures}/view-decomposition.png` });
+    // what is shown of the approach is what the tables say
+    run("export", `${scratch}/decomposition`, "--to", "csv");
+    const [names, ...rows] = readFileSync(`${scratch}/decomposition/approaches.csv`, "utf8").trim().split("\n").map((line) => line.split(","));
+    const turn = Number((await page.locator(".detail tr", { hasText: /^turn \(deg\)/ }).locator("td").first().innerText()).replace("\u2212", "-"));
+    assert.ok(rows.some((row) => Math.abs(Number(row[names.indexOf("turn")]) - turn) <= 1e-3 * Math.abs(turn) + 1e-9), `${turn}`);
+    await page.locator("label", { hasText: "Offset" }).locator("select").selectOption("0");
+    await page.locator(".watch").click();
+    await playing(page);
+    assert.match(await page.locator("h1").innerText(), /approached at .* trial 1/);
+    await page.locator("[data-do=overview]").click();
+    await page.locator("table", { hasText: "bend: comes apart" }).locator("button").first().click();
+    await page.locator("h2", { hasText: "bend" }).waitFor();
+    assert.equal(await overflow(page), 0);
+    await page.locator(".watch").click();
+    await playing(page);
+    assert.match(await page.locator("h1").innerText(), /bend, turned by 0/);
+  }));
+
+  test("a formation file runs live, and goes on when it is told to", () => opened(["studies/formations/comparison.toml"], async (page) => {
+    await page.locator(".time[data-step='0']").waitFor();
+    assert.equal(await page.locator("[data-do=go_on]").isVisible(), false, "the piloting that the page plays goes along by itself");
+    await page.locator("[data-path=method] select").selectOption("formation_6");
+    await page.locator("[data-do=go_on]").waitFor();
+    assert.match(await page.locator("h1").innerText(), /task 1, formation_6, trial 1/);
+    await playing(page);
+    const step = await page.locator(".time").getAttribute("data-step");
+    await page.locator("[data-do=go_on]").click();
+    await page.locator("#events li", { hasText: "next formation" }).waitFor();
+    await page.screenshot({ path: `${pictures}/view-formation-live.png` });
+    await page.locator("input.agent").fill("1");
+    await page.locator(".overlay .arrow.component").first().waitFor();
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.locator("[data-do=save]").click()]);
+    await saved.saveAs(`${scratch}/told.toml`);
+    const given = readFileSync(`${scratch}/told.toml`, "utf8");
+    assert.equal(Number(/switch_at = \[([^\]]*)\]/.exec(given)[1]), Number((0.2 * Number(step)).toPrecision(12)));
+  }));
+
   test("a formation: tasks by methods, and a trial with robots and walls", () => opened([`${scratch}/formation`], async (page) => {
     await page.locator(".multiple").first().waitFor();
     assert.equal(await page.locator(".multiple").count(), 19);
@@ -263,7 +322,7 @@ describe("searches", () => {
   }));
 
   test("each fits a phone, light and dark", async () => {
-    for (const kind of ["study", "evolution", "design", "map", "optimisation", "formation"]) {
+    for (const kind of ["study", "evolution", "design", "map", "optimisation", "decomposition", "formation"]) {
       await opened([`${scratch}/${kind}`], async (page) => {
         await page.locator(".searching canvas").first().waitFor();
         assert.equal(await overflow(page), 0, kind);
@@ -490,7 +549,7 @@ describe("what is sent", () => {
   }));
 
   test("searches are sent with what tells most, and play from disk without a network", async () => {
-    for (const kind of ["study", "evolution", "design", "map", "optimisation", "formation"]) {
+    for (const kind of ["study", "evolution", "design", "map", "optimisation", "decomposition", "formation"]) {
       assert.match(run("export", `${scratch}/${kind}`, "--to", "html", "--out", scratch), new RegExp(`${kind}\\.html: .*to play`));
       await watched(async (page, context) => {
         await context.setOffline(true);

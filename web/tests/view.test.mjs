@@ -206,6 +206,30 @@ describe("a scenario", () => {
   });
 });
 
+describe("a formation", () => {
+  test("goes on by a button and a key, and tells when", () => opened({ named: ["robots"] }, async ({ page, messages }) => {
+    await shown(page);
+    const button = page.locator("[data-do=go_on]");
+    assert.equal(await button.innerText(), "Next formation");
+    const { step: now } = await messages.receives("event", () => button.click());
+    assert.equal(now, await step(page));
+    await page.locator("[data-do=forth]").click();
+    await atStep(page, now + 1);
+    const later = await messages.receives("event", () => page.keyboard.press("g"));
+    assert.equal(later.step, now + 1);
+    assert.deepEqual(await page.locator("#events li").allInnerTexts().then((lines) => lines.map((line) => /next formation$/.test(line))), [true, true]);
+    assert.match(await page.locator(".time").innerText(), /step 1 of/);
+    await page.screenshot({ path: `${folder}/view-formation-live.png` });
+  }));
+
+  test("nothing else has that button, or the key", () => opened({}, async ({ page, messages }) => {
+    await shown(page);
+    assert.equal(await page.locator("[data-do=go_on]").isVisible(), false);
+    await page.keyboard.press("g");
+    assert.equal(messages.sent("go_on").length, 0);
+  }));
+});
+
 describe("one agent", () => {
   test("a click shows what it perceives, selects and does, in the numbers of the explanation", () => opened({ real: SCENARIO }, async ({ page, messages }) => {
     await shown(page);

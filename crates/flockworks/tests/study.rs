@@ -363,6 +363,8 @@ fn the_shipped_case_studies_have_their_cells() {
     let shipped = |name: &str| format!("{}/../../studies/{name}", env!("CARGO_MANIFEST_DIR"));
     for (name, said) in [
         ("perception/trials.toml", "90 cells, 90 different conditions, 630 trials"),
+        ("perception/robots.toml", "90 cells, 90 different conditions, 630 trials"),
+        ("abstracted/robots-errors.toml", "16 cells, 16 different conditions, 640 trials"),
         ("abstracted/simulations.toml", "16 cells, 16 different conditions, 160 trials"),
         ("abstracted/robots.toml", "4 cells, 4 different conditions"),
         ("cross/all.toml", "496 cells, 496 different conditions"),

@@ -244,6 +244,7 @@ fn nonsense_is_answered_and_too_much_is_cut_off() {
         "{\"do\":\"speed\",\"rate\":-5}",
         "{\"do\":\"seek\",\"frame\":3}",
         "{\"do\":\"open\",\"gallery\":\"none\"}",
+        "{\"do\":\"go_on\"}",
         "{\"do\":\"set\",\"path\":\"space.dimensions\",\"value\":3}",
     ] {
         say(&mut first, 1, nonsense.as_bytes());
@@ -394,4 +395,167 @@ fn files_and_sketches_are_taken_from_its_own_page_alone() {
     std::fs::write(&file, saved["text"].as_str().unwrap()).unwrap();
     let check = Command::new(env!("CARGO_BIN_EXE_flockworks")).arg("check").arg(&file).output().unwrap();
     assert_eq!(check.status.code(), Some(0), "{}", String::from_utf8_lossy(&check.stderr));
+}
+
+/// Where everybody is in a frame, as bits.
+fn places(frame: &[u8]) -> Vec<u32> {
+    (0..2 * whole(frame, 16) as usize).map(|k| whole(frame, 24 + 4 * k)).collect()
+}
+
+/// Makes so many steps in a session that has shown `seen` frames, and gives the frame after them.
+fn stepped(socket: &mut BufReader<TcpStream>, seen: u32, count: u64) -> Vec<u8> {
+    tell(socket, &json!({ "do": "seen", "number": seen }));
+    tell(socket, &json!({ "do": "step", "count": count }));
+    frame(socket)
+}
+
+#[test]
+fn a_formation_goes_on_when_it_is_told_to_and_its_times_give_the_same_trial() {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("view-formation");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let program = |arguments: &[&str]| {
+        let run = Command::new(env!("CARGO_BIN_EXE_flockworks")).current_dir(&folder).args(arguments).output().unwrap();
+        (run.status.code(), String::from_utf8_lossy(&run.stdout).into_owned() + &String::from_utf8_lossy(&run.stderr))
+    };
+    let template = program(&["new", "formation"]).1.replace("duration = 100", "duration = 40");
+    let manual = template.replace("per_wall = 3 }", "per_wall = 3, switch = \"manual\" }");
+    assert_ne!(manual, template);
+    std::fs::write(folder.join("manual.toml"), &manual).unwrap();
+    // nobody says when to go on in a run
+    let line = manual.lines().position(|line| line.contains("manual")).unwrap() + 1;
+    let (code, told) = program(&["run", "manual.toml", "--quick", "--out", "none"]);
+    assert_eq!(code, Some(2), "{told}");
+    assert!(told.contains(&format!("manual.toml:{line}:")) && told.contains("`switch_at`"), "{told}");
+    assert!(told.matches("error").count() == 1 && !folder.join("none").exists(), "{told}");
+    let (code, told) = program(&["check", "manual.toml"]);
+    assert!(code == Some(0) && told.contains("viewed and not run, for `robots`"), "{told}");
+
+    let opened = |file: &str, at: Value| {
+        let server = served(&[folder.join(file).to_str().unwrap()]);
+        let mut socket = socket(server.port, &format!("http://127.0.0.1:{}", server.port)).unwrap();
+        tell(&mut socket, &json!({ "do": "open", "given": 0, "at": at }));
+        let scene = until(&mut socket, "scene");
+        (server, socket, scene)
+    };
+    let (_server, mut told, scene) = opened("manual.toml", json!({}));
+    assert_eq!((&scene["kind"], &scene["goes_on"], &scene["steps"]), (&json!("live"), &json!(true), &json!(200)));
+    assert_eq!(
+        scene["groups"][1],
+        json!({ "name": "shepherds", "model": "", "title": "", "first": 4, "count": 6, "radius": 0.17 })
+    );
+    assert!(scene["title"].as_str().unwrap().contains("task corner, robots, trial 1"), "{scene}");
+    let list = until(&mut told, "obstacles")["list"].as_array().unwrap().len();
+    assert!(list > 4, "the arena, the path and its gates: {list}");
+    assert_eq!(whole(&frame(&mut told), 16), 10, "targets and shepherds");
+    let mut seen = Vec::new();
+    for (number, count) in [(1, 45), (2, 60), (3, 50)] {
+        seen.push(stepped(&mut told, number, count));
+        tell(&mut told, &json!({ "do": "go_on" }));
+        let event = until(&mut told, "event");
+        assert_eq!(
+            (&event["step"], &event["what"]),
+            (&json!(whole(seen.last().unwrap(), 4)), &json!("next formation"))
+        );
+    }
+    // the trial ends by itself: more steps than there are
+    seen.push(stepped(&mut told, 4, 1000));
+    let end = whole(&seen[3], 4);
+    assert!(end <= 200, "{end}");
+    tell(&mut told, &json!({ "do": "save" }));
+    let saved = until(&mut told, "file")["text"].as_str().unwrap().to_owned();
+    std::fs::write(folder.join("told.toml"), &saved).unwrap();
+    assert!(saved.contains("switch_at = [9") && saved.contains("# What is there already"), "{saved}");
+
+    // the same frames where the file gives the times
+    let (_server, mut given, scene) = opened("told.toml", json!({}));
+    assert!(scene["title"].as_str().unwrap().contains("robots, trial 1"), "{scene}");
+    frame(&mut given);
+    for (k, count) in [45, 60, 50, 1000].into_iter().enumerate() {
+        let again = stepped(&mut given, k as u32 + 1, count);
+        assert_eq!(again[4..], seen[k][4..], "frame {k}");
+    }
+    // and where a run tried it, which nobody watched
+    let (code, ran) = program(&["run", "told.toml", "--quick", "--out", "ran"]);
+    assert_eq!(code, Some(0), "{ran}");
+    let (_server, mut ran, scene) = opened("ran", json!({ "task": 0, "method": 2, "trial": 1 }));
+    assert_eq!(scene["frames"], json!(end + 1));
+    frame(&mut ran);
+    for (k, frame_of) in seen.iter().enumerate() {
+        tell(&mut ran, &json!({ "do": "seen", "number": k + 1 }));
+        tell(&mut ran, &json!({ "do": "seek", "frame": whole(frame_of, 4) }));
+        assert_eq!(places(&frame(&mut ran)), places(frame_of), "frame {k}");
+    }
+    // without a word it is another trial
+    let (_server, mut silent, _) = opened("manual.toml", json!({}));
+    frame(&mut silent);
+    assert_eq!(places(&stepped(&mut silent, 1, 45)), places(&seen[0]));
+    assert_ne!(places(&stepped(&mut silent, 2, 60)), places(&seen[1]));
+    // another method of the file may be chosen, and cannot go on
+    tell(&mut silent, &json!({ "do": "set", "path": "method", "value": "walls" }));
+    let scene = until(&mut silent, "scene");
+    assert_eq!((&scene["goes_on"], scene["groups"].as_array().unwrap().len()), (&json!(false), 1));
+    tell(&mut silent, &json!({ "do": "go_on" }));
+    assert!(until(&mut silent, "problem")["text"].as_str().unwrap().contains("`walls` is no formation"));
+    tell(&mut silent, &json!({ "do": "set", "path": "method", "value": "wals" }));
+    assert!(until(&mut silent, "problem")["text"].as_str().unwrap().contains("no method"));
+}
+
+#[test]
+fn a_decomposition_shows_its_approaches_and_simulates_any_trial_again() {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("view-decomposition");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let program = |arguments: &[&str]| {
+        let run = Command::new(env!("CARGO_BIN_EXE_flockworks")).current_dir(&folder).args(arguments).output().unwrap();
+        assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+        String::from_utf8_lossy(&run.stdout).into_owned()
+    };
+    let stretch = "[interval.bend]\nabout = \"comes apart\"\nline = 1\nfrom = 40\nto = 60\nbehaviour.is.simple-split = {}\n\
+                   [vary]\nangles = [0]\nlengths = [1]\nquick_trials = 1\n[scenario]\n";
+    let template = program(&["new", "decomposition"]);
+    let marked = template.replacen("[scenario]\n", stretch, 1);
+    assert_ne!(marked, template);
+    std::fs::write(folder.join("bend.toml"), marked).unwrap();
+    program(&["run", "bend.toml", "--quick", "--out", "bend", "--set", "offsets=2"]);
+    let server = served(&[folder.join("bend").to_str().unwrap()]);
+    let port = server.port;
+    let host = format!("127.0.0.1:{port}");
+    let overview = body(&got(port, "/search/0", &host));
+    let (clusters, approaches) = (overview["clusters"].as_array().unwrap(), overview["approaches"].as_array().unwrap());
+    assert!(clusters.len() > 1 && overview["tried"] == overview["planned"], "{overview}");
+    let counted: u64 = clusters.iter().map(|cluster| cluster["approaches"].as_u64().unwrap()).sum();
+    assert_eq!(counted as usize, approaches.len());
+    let numbers = overview["numbers"].as_array().unwrap().len();
+    assert!(approaches.iter().all(|one| one["found"].as_array().unwrap().len() == numbers));
+    let variations = &overview["intervals"][0]["variations"];
+    assert_eq!((&variations[0]["angle"], &variations[1]["angle"]), (&json!(0.0), &json!(null)));
+    let medoid = |cluster: &Value| approaches[cluster["medoid"].as_u64().unwrap() as usize]["approach"].clone();
+    let first = medoid(&clusters[0]);
+    let part = body(&got(port, &format!("/search/0/part?approach={first}&offset=0"), &host));
+    assert!(part["drawing"]["built"].as_array().is_some_and(|lines| !lines.is_empty()), "{part}");
+    assert!(got(port, "/search/0/part?approach=99999", &host).contains("there is no approach 99999"));
+    assert!(got(port, "/search/0/part?interval=0&variation=2", &host).contains("there is no variation 2"));
+
+    let mut watched = socket(port, &format!("http://{host}")).unwrap();
+    tell(&mut watched, &json!({ "do": "open", "given": 0, "at": { "approach": first, "trial": 1 } }));
+    let scene = until(&mut watched, "scene");
+    assert!(scene["kind"] == "live" && scene["title"].as_str().unwrap().contains("approached at"), "{scene}");
+    frame(&mut watched);
+    let now = stepped(&mut watched, 1, 60);
+    // the file that the run wrote of the medoid is the same trial
+    let file = folder.join(format!("bend/environments/{}.toml", clusters[0]["name"].as_str().unwrap()));
+    let other = served(&[file.to_str().unwrap()]);
+    let mut written = socket(other.port, &format!("http://127.0.0.1:{}", other.port)).unwrap();
+    tell(&mut written, &json!({ "do": "open", "given": 0 }));
+    frame(&mut written);
+    assert_eq!(stepped(&mut written, 1, 60)[4..], now[4..]);
+    // another offset is another trial, and a variation is watched as well
+    let mut moved = socket(port, &format!("http://{host}")).unwrap();
+    tell(&mut moved, &json!({ "do": "open", "given": 0, "at": { "approach": first, "offset": 0, "trial": 1 } }));
+    let beside = until(&mut moved, "obstacles");
+    assert_ne!(beside["list"], json!([]));
+    tell(&mut moved, &json!({ "do": "open", "given": 0, "at": { "interval": 0, "variation": 0, "trial": 2 } }));
+    let scene = until(&mut moved, "scene");
+    assert!(scene["title"].as_str().unwrap().contains("bend, turned by 0"), "{scene}");
 }

@@ -9,6 +9,7 @@ use lab::decomposition::form::Decomposition as Form;
 use lab::decomposition::results::NAMES;
 use lab::decomposition::tables::{APPROACHES, CLUSTERS, VARIATIONS};
 use lab::decomposition::{self, Plan};
+use lab::searched::{Decomposed, Searched};
 use serde_json::Value as Json;
 use std::io::Write;
 use std::path::Path;
@@ -59,6 +60,9 @@ impl Kind for Decomposition {
             seconds: done.seconds,
         };
         end.tell(out, |out| progress::told(&done.folder, REPORT, out))
+    }
+    fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
+        Ok(Box::new(Decomposed::open(folder)?))
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         execute::of_folder(folder)?;

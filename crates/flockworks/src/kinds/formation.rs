@@ -9,7 +9,8 @@ use lab::formation::execute::{self, REPORT};
 use lab::formation::form::Formation as Form;
 use lab::formation::results::NAMES;
 use lab::formation::tables::{OUTCOMES, TRIALS, WALLS};
-use lab::formation::{self, Plan};
+use lab::formation::{self, Plan, Watched};
+use lab::live::{self, LiveError, Shown};
 use lab::searched::{Formed, Searched};
 use serde_json::Value as Json;
 use std::io::Write;
@@ -39,10 +40,15 @@ impl Kind for Formation {
         lab::file::reference::reference::<Form>("Formation files", &lead)
     }
     fn check(&self, input: &Input) -> Result<String, Fault> {
-        let plan = read(input, false)?;
+        let plan = read(input, false, Watched::Somebody)?;
         let searched = (0..plan.tasks.len()).filter(|&task| plan.searched(task)).count();
+        let waiting: Vec<String> = plan.waiting().map(|name| format!("`{name}`")).collect();
+        let waiting = match waiting.as_slice() {
+            [] => String::new(),
+            names => format!("; without `switch_at` it can be viewed and not run, for {}", names.join(", ")),
+        };
         Ok(format!(
-            "{} tasks ({searched} whose walls are searched), {} methods, {} trials of each",
+            "{} tasks ({searched} whose walls are searched), {} methods, {} trials of each{waiting}",
             plan.tasks.len(),
             plan.methods.len(),
             plan.trials
@@ -50,7 +56,7 @@ impl Kind for Formation {
     }
     fn run(&self, mut input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
         let threads = progress::begin(&mut input, options, "a formation")?;
-        let plan = read(&input, options.quick)?;
+        let plan = read(&input, options.quick, Watched::Nobody)?;
         run::listen()?;
         let mut progress = Progress::new();
         let done = execute::run(&plan, threads, options.out.as_deref(), PROGRAM, &mut progress);
@@ -66,7 +72,11 @@ impl Kind for Formation {
         end.tell(out, |out| told(&done.folder, out))
     }
     fn view(&self, input: &Input, _: &ViewOptions) -> Result<(String, String), Fault> {
-        Ok((input.name.clone(), read(input, true)?.viewed()))
+        let plan = read(input, true, Watched::Somebody)?;
+        Ok((input.name.clone(), plan.sources.text(0).to_owned()))
+    }
+    fn live(&self, input: &Input, _: usize) -> Result<Box<dyn Shown>, LiveError> {
+        live::form(&input.name, &input.text, &mut load)
     }
     fn search(&self, folder: &Path) -> Result<Box<dyn Searched>, Fault> {
         Ok(Box::new(Formed::open(folder)?))
@@ -87,7 +97,11 @@ fn told(folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
     Ok(())
 }
 
-fn read(input: &Input, quick: bool) -> Result<Plan, Fault> {
-    let mut load = |path: &str| text_of(path).map_err(|fault| fault.to_string());
-    formation::read(&input.name, &input.text, &input.sets, quick, &mut load).map_err(|problems| shown(&problems))
+fn load(path: &str) -> Result<String, String> {
+    text_of(path).map_err(|fault| fault.to_string())
+}
+
+fn read(input: &Input, quick: bool, watched: Watched) -> Result<Plan, Fault> {
+    let read = formation::read(&input.name, &input.text, &input.sets, (quick, watched), &mut load);
+    read.map_err(|problems| shown(&problems))
 }

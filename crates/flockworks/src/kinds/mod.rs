@@ -18,7 +18,7 @@ use crate::run::{RunOptions, text_of};
 use crate::view::ViewOptions;
 use lab::file::Problems;
 use lab::file::kind::kind_of;
-use lab::live::{LiveError, Shown};
+use lab::live::{LiveError, Shown, simulate};
 use lab::searched::Searched;
 use lab::store::folder;
 use serde_json::Value as Json;
@@ -70,13 +70,20 @@ pub trait Kind: Sync {
     /// # Errors
     /// What is wrong with the input, the folder or the system.
     fn run(&self, input: Input, options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault>;
-    /// The scenario, name and text, that shows what the file is about.
+    /// The file, name and text, that shows what this one is about: a scenario, or itself where it is run live.
     ///
     /// # Errors
     /// What is wrong with the file, or that there is nothing to look at.
     fn view(&self, input: &Input, options: &ViewOptions) -> Result<(String, String), Fault> {
         let _ = options;
         wrong(format!("`{}` is of the kind {}, of which there is nothing to look at", input.name, self.id()))
+    }
+    /// Such a file as a world that runs while one watches.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn live(&self, input: &Input, threads: usize) -> Result<Box<dyn Shown>, LiveError> {
+        simulate(&input.name, &input.text, &[], None, threads)
     }
     /// Whether its folders hold recordings.
     fn records(&self) -> bool {
@@ -157,6 +164,15 @@ pub fn read_text(name: &str, text: &str) -> Result<(&'static dyn Kind, Input), F
     let kind = kind_of(name, text, &ids()).map_err(|problems| shown(&problems))?;
     let kind = find(kind.unwrap_or(LIST[0].id()))?;
     Ok((kind, Input { name: name.to_owned(), text: text.to_owned(), sets: Vec::new() }))
+}
+
+/// A file that a kind gave to be viewed, as a world that runs while one watches.
+///
+/// # Errors
+/// What is wrong with the file.
+pub fn live(name: &str, text: &str, threads: usize) -> Result<Box<dyn Shown>, LiveError> {
+    let (kind, input) = read_text(name, text).map_err(|fault| LiveError::Request(fault.to_string()))?;
+    kind.live(&input, threads)
 }
 
 /// The kind of file that a folder comes from.

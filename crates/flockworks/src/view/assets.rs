@@ -16,6 +16,7 @@ parts! {
     "camera.js": "text/javascript; charset=utf-8";
     "charts.js": "text/javascript; charset=utf-8";
     "connection.js": "text/javascript; charset=utf-8";
+    "decomposition.js": "text/javascript; charset=utf-8";
     "design.js": "text/javascript; charset=utf-8";
     "draw.js": "text/javascript; charset=utf-8";
     "drawing.js": "text/javascript; charset=utf-8";

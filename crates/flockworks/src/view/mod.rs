@@ -57,7 +57,7 @@ pub struct ViewOptions {
 /// Something the command line named, or a file that was dropped on the page.
 #[derive(Clone)]
 pub(crate) enum Given {
-    /// A scenario: name and text.
+    /// A file that runs live, a scenario for one: name and text.
     Scenario(String, String),
     /// The folder of a run or of tracks, which of its recordings, and the names of all where there are several.
     Run(PathBuf, usize, Vec<String>),

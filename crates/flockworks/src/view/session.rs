@@ -214,6 +214,11 @@ impl Session {
                 }
                 self.tell(&json!({ "is": "event", "step": step, "t": t, "what": what }));
             }
+            "go_on" => {
+                let what = shown.go_on()?;
+                let (step, t, _) = shown.moment();
+                self.tell(&json!({ "is": "event", "step": step, "t": t, "what": what }));
+            }
             "focus" => {
                 self.focus = whole("agent").and_then(|agent| u32::try_from(agent).ok());
                 self.explained = None;
@@ -237,7 +242,7 @@ impl Session {
             let at = message.get("given").and_then(Json::as_u64).unwrap_or(0) as usize;
             let place = At::of(message.get("at").unwrap_or(&Json::Null));
             match self.shared.given(at) {
-                Some(Given::Scenario(name, text)) => (simulate(&name, &text, &[], None, threads)?, false),
+                Some(Given::Scenario(name, text)) => (kinds::live(&name, &text, threads)?, false),
                 Some(Given::Course(_, course)) => (Box::new(Replayed::new((*course).clone())?), true),
                 Some(Given::Run(path, recording, _)) => {
                     let recording = place.perhaps("recording").unwrap_or(recording);

@@ -71,6 +71,35 @@ pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
     KIND.plan(path, |name, text, sets, quick, load| super::read(name, text, sets, quick, load))
 }
 
+/// What is known of a decomposition, complete or not.
+pub struct Known(There);
+
+impl Known {
+    /// What can be told of it so far.
+    pub fn results<'a>(&self, plan: &'a Plan) -> Results<'a> {
+        results(plan, &self.0)
+    }
+    /// How many approaches were tried.
+    pub fn tried(&self, plan: &Plan) -> usize {
+        (0..plan.approaches()).filter(|&number| self.0.contains_key(&Unit::Approach(number))).count()
+    }
+}
+
+/// What is known of a decomposition in its folder, complete or not, as one looks at it.
+///
+/// # Errors
+/// A folder that holds none, or one that cannot be read.
+pub fn look(path: &Path) -> Result<(Plan, Known), StoreError> {
+    let plan = of_folder(path)?;
+    let path = path.join(LOG);
+    let mut there = There::new();
+    if path.exists() {
+        let (mut log, records) = Log::open_to_read(&path)?;
+        there = known(&mut log, &records, &path)?;
+    }
+    Ok((plan, Known(there)))
+}
+
 /// Runs what is missing of a decomposition.
 ///
 /// # Errors

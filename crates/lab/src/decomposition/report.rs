@@ -30,7 +30,7 @@ pub fn lines(results: &Results<'_>) -> Vec<String> {
 }
 
 /// What a cluster does, in words.
-fn effects(cluster: &Cluster) -> Vec<String> {
+pub(crate) fn effects(cluster: &Cluster) -> Vec<String> {
     let number = |name: &str| cluster.mean[super::probe::place(name)];
     vec![
         format!("turn {} deg", short(number("turn"))),
@@ -162,10 +162,10 @@ fn fits(results: &Results<'_>) -> Listing {
             Some(range) => format!("{}{unit} to {}{unit}", short(range[axis].0), short(range[axis].1)),
             None => "none".to_owned(),
         };
-        let expected = plan_words(results.plan, number);
+        let wanted = expected(results.plan, number);
         vec![
             marked.name.clone(),
-            expected,
+            wanted,
             pieces.join("; "),
             share(found),
             share(bare),
@@ -188,7 +188,8 @@ fn fits(results: &Results<'_>) -> Listing {
     }
 }
 
-fn plan_words(plan: &Plan, marked: usize) -> String {
+/// What a stretch is expected to do, in words.
+pub(crate) fn expected(plan: &Plan, marked: usize) -> String {
     let interval = &plan.form.interval.0[marked].1;
     if interval.about.is_empty() { interval.behaviour.words() } else { interval.about.clone() }
 }
@@ -230,7 +231,7 @@ fn varied(results: &Results<'_>) -> Map {
 }
 
 /// Unit of lengths.
-fn unit(plan: &Plan) -> &'static str {
+pub(crate) fn unit(plan: &Plan) -> &'static str {
     if plan.construct.units == terrain::Units::Metres { "m" } else { "units" }
 }
 

@@ -1,6 +1,6 @@
 //! A trial computed anew, frame by frame: targets and shepherds on their ways, walls that come and go.
 
-use super::plan::Plan;
+use super::plan::{Method, Plan};
 use super::task::Wall;
 use super::trial;
 use crate::report::{Border, Outline, Replay, Stage};
@@ -8,7 +8,7 @@ use space::Vector;
 use terrain::Point;
 
 /// Name of the group of shepherds in a recording.
-const SHEPHERDS: &str = "shepherds";
+pub(crate) const SHEPHERDS: &str = "shepherds";
 
 fn deep(p: Point) -> [f64; 3] {
     [p[0], p[1], 0.0]
@@ -16,6 +16,30 @@ fn deep(p: Point) -> [f64; 3] {
 
 fn segment(at: &space::Segment) -> Outline {
     Outline::Segment { from: deep(at.from), to: deep(at.to) }
+}
+
+/// What was there already, and those of the walls that stand.
+pub(crate) fn outlines(plan: &Plan, walls: &[Wall], standing: &[bool]) -> Vec<Outline> {
+    let there = plan.workspace.workspace.geometry.iter().flat_map(|geometry| geometry.segments());
+    let standing = walls.iter().zip(standing).filter(|(_, standing)| **standing).map(|(wall, _)| wall.at);
+    there.chain(standing).map(|at| segment(&at)).collect()
+}
+
+/// Corners of a box that holds a task in its workspace, and these places.
+pub(crate) fn extent(plan: &Plan, task: usize, places: &[Point]) -> (Point, Point) {
+    let corners = plan.workspace.workspace.boundary.iter().flatten();
+    let all = || places.iter().chain(&plan.tasks[task].path).chain(corners.clone());
+    let bound = |axis: usize, of: fn(f64, f64) -> f64, from: f64| all().map(|p| p[axis]).fold(from, of);
+    (
+        Vector([0, 1].map(|axis| bound(axis, f64::min, f64::INFINITY))),
+        Vector([0, 1].map(|axis| bound(axis, f64::max, f64::NEG_INFINITY))),
+    )
+}
+
+/// What a method is, and what is drawn.
+pub(crate) fn about(method: &Method) -> String {
+    let about = if method.form.about.is_empty() { String::new() } else { format!("{}.\n\n", method.form.about) };
+    format!("{about}Dashed: the path, its gates, where the targets start and where they are to go.")
 }
 
 /// A trial of a task with a method, by its number from 1, one moment in `every` kept, and the last. Shepherds are a group of their own
@@ -31,21 +55,11 @@ pub fn replay(
 ) -> Result<Replay, String> {
     let own = &plan.methods[method];
     let arena = plan.arena(task, own, walls);
-    let there: Vec<Outline> = plan
-        .workspace
-        .workspace
-        .geometry
-        .iter()
-        .flat_map(|geometry| geometry.segments())
-        .map(|at| segment(&at))
-        .collect();
     let mut frames: Vec<(f64, Vec<Point>, Vec<Outline>)> = Vec::new();
     let (mut step, mut robots, mut last, mut body) = (0u64, 0, None, 0.0);
     trial::run(&arena, plan.seed_of(task, number), &|| false, &mut |shown| {
         (robots, body) = (shown.robots.len(), shown.target_radius);
-        let mut outlines = there.clone();
-        let standing = arena.walls.iter().zip(shown.standing).filter(|(_, standing)| **standing);
-        outlines.extend(standing.map(|(wall, _)| segment(&wall.at)));
+        let outlines = outlines(plan, &arena.walls, shown.standing);
         let frame = (shown.time, shown.targets.iter().chain(shown.robots).copied().collect(), outlines);
         if step.is_multiple_of(every.max(1)) {
             frames.push(frame);
@@ -64,14 +78,8 @@ pub fn replay(
         groups.push(SHEPHERDS.into());
         radius.push(own.shepherds.radius);
     }
-    let corners = plan.workspace.workspace.boundary.iter().flatten();
-    let all: Vec<Point> =
-        frames.iter().flat_map(|frame| &frame.1).chain(&plan.tasks[task].path).chain(corners).copied().collect();
-    let bound = |axis: usize, of: fn(f64, f64) -> f64, from: f64| all.iter().map(|p| p[axis]).fold(from, of);
-    let (low, high) = (
-        [bound(0, f64::min, f64::INFINITY), bound(1, f64::min, f64::INFINITY), 0.0],
-        [bound(0, f64::max, f64::NEG_INFINITY), bound(1, f64::max, f64::NEG_INFINITY), 0.0],
-    );
+    let everywhere: Vec<Point> = frames.iter().flat_map(|frame| &frame.1).copied().collect();
+    let (low, high) = extent(plan, task, &everywhere);
     // the way of each from the frame before is its heading; that of the first frame is the way that follows
     let heading = |frame: usize, member: usize| {
         let to = frame.max(1).min(frames.len() - 1);
@@ -84,8 +92,8 @@ pub fn replay(
         about: format!("Trial {number}. Lines are walls that stand at the moment."),
         stage: Stage {
             dimensions: 2,
-            low,
-            high,
+            low: deep(low),
+            high: deep(high),
             edges: [Border::Open; 3],
             unit: plan.targets.scenario.units.length.clone(),
             groups,

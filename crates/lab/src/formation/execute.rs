@@ -3,7 +3,7 @@
 //! What is found for a task, and each trial, ends as one record of an append-only log. So a stop at any moment loses what is in flight
 //! and nothing else, and the tables are the same for any number of threads and stops.
 
-use super::plan::Plan;
+use super::plan::{Plan, Watched};
 use super::results::Results;
 use super::task::Wall;
 use super::trial::{self, Tried};
@@ -72,7 +72,7 @@ impl There {
 /// # Errors
 /// A folder that holds none, or one that cannot be read.
 pub fn of_folder(path: &Path) -> Result<Plan, StoreError> {
-    KIND.plan(path, |name, text, sets, quick, load| super::read(name, text, sets, quick, load))
+    KIND.plan(path, |name, text, sets, quick, load| super::read(name, text, sets, (quick, Watched::Nobody), load))
 }
 
 /// Runs what is missing.

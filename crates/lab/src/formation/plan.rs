@@ -8,7 +8,7 @@ use super::task::{Task, Wall};
 use super::trial::{self, Arena};
 use crate::design::plan::{TRIAL, opened, workspace};
 use crate::environment::claims;
-use crate::environment::trial::{Population, obstacles};
+use crate::environment::trial::Population;
 use crate::environment::workspace::Resolved;
 use crate::file::{Form, Node, Problems, Rule, Sources, Span};
 use crate::scenario::Scenario;
@@ -18,7 +18,7 @@ use serde_json::{Value as Json, json};
 use space::random::child_seed;
 use space::spelling::nearest;
 use space::{Segment, Vector};
-use terrain::{Draws, Geometry, Point};
+use terrain::{Draws, Point};
 
 /// Kinds of child seeds, beside those of searches and designs: a task, a trial of the search for its walls.
 const TASK: u32 = 8;
@@ -126,16 +126,14 @@ impl Plan {
             Problem { solver: &self.form.solver, task: &self.tasks[task], seed, bare, trial_seed: &trial_seed };
         problem.solve(stop).map_err(|what| format!("task `{}`: {what}", self.tasks[task].name))
     }
-    /// The first task as a scenario: its start, and the walls that the file gives; with its seed it is the first trial by walls that
-    /// stand all the time.
-    pub fn viewed(&self) -> String {
-        let mut scenario = self.scenario(&self.targets, 0);
-        let walls = self.tasks[0].ordered(self.walls[0].as_deref().unwrap_or_default());
-        let walls: Vec<Geometry> = walls.iter().map(|wall| Geometry::Wall(wall.at)).collect();
-        scenario.obstacle.extend(obstacles(&walls));
-        scenario.title = format!("{}: task {}", self.form.title, self.tasks[0].name);
-        scenario.seed = Some(self.seed_of(0, 1));
-        crate::file::write::toml(&Node { tree: scenario.write(), span: Span::default() })
+    /// Names of the methods that wait for a person to say when they go on.
+    pub fn waiting(&self) -> impl Iterator<Item = &str> {
+        self.methods.iter().filter(|method| method.form.by.waits()).map(|method| method.name.as_str())
+    }
+    /// Whether a task can be tried with a method before anything was searched.
+    pub fn given(&self, task: usize, method: usize) -> bool {
+        let own = &self.methods[method];
+        own.tasks.contains(&task) && (self.walls[task].is_some() || !own.form.by.needs_walls())
     }
     /// Whether some method needs walls of a task that gives none.
     pub fn searched(&self, task: usize) -> bool {
@@ -165,17 +163,38 @@ fn step_of(population: &Population) -> f64 {
     population.scenario.time.duration / population.steps.max(1) as f64
 }
 
+/// Whether somebody looks on, who can say when robots go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watched {
+    /// Nobody: what the file leaves to a person is wrong.
+    Nobody,
+    /// Somebody.
+    Somebody,
+}
+
 /// Reads a formation file from its text, the values put over it, and the files it names.
 ///
 /// # Errors
 /// Everything that is wrong with it, at its place.
-pub fn read(name: &str, text: &str, sets: &[String], quick: bool, load: Load<'_>) -> Result<Plan, Problems> {
-    let (mut plan, sources) = Files::read(load, |files| planned(files, name, text, sets, quick))?;
+pub fn read(
+    name: &str,
+    text: &str,
+    sets: &[String],
+    (quick, watched): (bool, Watched),
+    load: Load<'_>,
+) -> Result<Plan, Problems> {
+    let (mut plan, sources) = Files::read(load, |files| planned(files, name, text, sets, (quick, watched)))?;
     plan.sources = sources;
     Ok(plan)
 }
 
-fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick: bool) -> Option<Plan> {
+fn planned(
+    files: &mut Files<'_>,
+    name: &str,
+    text: &str,
+    sets: &[String],
+    (quick, watched): (bool, Watched),
+) -> Option<Plan> {
     let tree = opened(files, name, text, sets)?;
     let form = Formation::read(&tree, &Rule { name: "the file", ..Rule::FREE }, &mut files.desk)
         .filter(|_| files.desk.problems.is_empty())?;
@@ -221,6 +240,12 @@ fn planned(files: &mut Files<'_>, name: &str, text: &str, sets: &[String], quick
         }
         if written.tasks.is_none() {
             chosen = (0..tasks.len()).collect();
+        }
+        if watched == Watched::Nobody && written.by.waits() {
+            let place = tree.place(&format!("method.{name}.by.formation.switch"));
+            let what = format!("`{name}` waits for a person who says when to go on, and here nobody looks on");
+            let help = "`flockworks view` lets you say so, and saves when you did";
+            files.desk.problem(&place, what, "`switch_at`, the times at which it goes on", help);
         }
         let shepherds = written.shepherds.clone().unwrap_or_else(|| form.shepherds.clone());
         methods.push(Method { name: name.clone(), form: written.clone(), population, shepherds, tasks: chosen });

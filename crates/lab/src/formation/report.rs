@@ -180,7 +180,7 @@ fn csv(results: &Results<'_>) -> Table {
     Table { file: "outcomes.csv".into(), about: "What came of each task with each method.".into(), csv }
 }
 
-fn circle(centre: Point, radius: f64) -> Vec<[f64; 2]> {
+pub(crate) fn circle(centre: Point, radius: f64) -> Vec<[f64; 2]> {
     let angle = |k: usize| std::f64::consts::TAU * k as f64 / CORNERS as f64;
     (0..=CORNERS).map(|k| (centre + Vector::at_angle(angle(k)) * radius).0).collect()
 }

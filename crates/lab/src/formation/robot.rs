@@ -89,6 +89,14 @@ impl Fleet {
     pub fn places(&self) -> Vec<Point> {
         self.robots.iter().map(|robot| robot.at).collect()
     }
+    /// Directions in which they face; of those that move freely, in which they go, zero at rest.
+    pub fn faces(&self) -> Vec<Point> {
+        let face = |robot: &Robot| match self.form.wheels {
+            true => Vector::at_angle(robot.body[0]),
+            false => robot.velocity.unit(),
+        };
+        self.robots.iter().map(face).collect()
+    }
     /// Whether anybody decides in the tick that begins at a time.
     pub fn due(&self, time: f64, tick: f64) -> bool {
         self.robots.iter().any(|robot| robot.due <= time + 0.5 * tick)

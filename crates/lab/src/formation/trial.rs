@@ -1,6 +1,7 @@
-//! One trial: targets on their way, walls that come and go, and shepherds that are told where to be.
+//! One trial: targets on their way, walls that come and go, and shepherds that are told where to be. Each moment is decided on, and then
+//! gone on from: by [`run`] to the end, and step by step where somebody looks on ([`Underway`]).
 
-use super::controllers::{By, Scene};
+use super::controllers::{By, Controller, Flock, Scene};
 use super::form::Shepherds;
 use super::robot::{Around, Fleet};
 use super::task::{Progress, Task, Wall};
@@ -11,6 +12,8 @@ use crate::scenario::{Precision, Scenario};
 use measure::behaviours::{Moment, Setting, Watch, find};
 use space::Vector;
 use space::shape::Shape;
+use swarm::World;
+use swarm::engine::Explanation;
 use swarm::models::{Catalogue, Models};
 use swarm::parameters::Scalar;
 use terrain::{Geometry, Point, hull, within};
@@ -109,6 +112,40 @@ pub fn at_start(scenario: &Scenario, task: &Task, deviation: f64) -> Scenario {
     scenario
 }
 
+/// A trial that is under way, in either precision.
+pub trait Underway: Send {
+    /// The moment; which walls stand is of the decision before.
+    fn shown(&self) -> Shown<'_>;
+    /// Number of the step that begins now.
+    fn step(&self) -> u64;
+    /// Share of the targets that have done all parts of the task.
+    fn arrived(&self) -> f64;
+    /// Mean distance of the targets from their middle.
+    fn spread(&self) -> f64;
+    /// Directions in which targets go and shepherds face, the targets first; zero at rest.
+    fn ways(&self) -> Vec<Point>;
+    /// The posts at which robots come to stand.
+    fn posts(&self) -> Vec<Point>;
+    /// Decides, and goes on by a step. Whether it did: not at the end.
+    fn go_on(&mut self) -> bool;
+    /// Lets a formation go on to its next walls in the step that begins now. All times at which it is told to, past and to come; none
+    /// where what brings the targets along is no formation.
+    fn switch(&mut self) -> Option<Vec<f64>>;
+    /// What moves a target in the step that begins now, with the shepherds as they stand.
+    fn explain(&mut self, target: u32) -> Option<Explanation>;
+}
+
+/// A trial at its start, to be gone on with.
+///
+/// # Errors
+/// What this seed makes impossible, in a sentence.
+pub fn begun(arena: &Arena<'_>, seed: u64) -> Result<Box<dyn Underway>, String> {
+    Ok(match arena.scenario.precision {
+        Precision::Single => Box::new(Trial::<f32>::new(arena, seed)?),
+        Precision::Double => Box::new(Trial::<f64>::new(arena, seed)?),
+    })
+}
+
 /// Runs a trial; none where it was stopped. `see` is shown every moment.
 ///
 /// # Errors
@@ -152,106 +189,235 @@ fn tried<R: Scalar>(
 where
     Models: Catalogue<R, 2>,
 {
-    let task = arena.task;
-    let mut scenario = arena.scenario.clone();
-    let first_wall = scenario.obstacle.len();
-    let mut controller = arena.by.controller(task, &arena.walls, arena.timed);
-    let members: usize = scenario.group.0.iter().map(|(_, group)| group.count).sum();
-    let mut progress = Progress::new(task, members);
-    // bodies are known once the world is; until then the model's own radius does
-    let radius = scenario.group.0.first().and_then(|(_, group)| group.physics.as_ref()?.radius);
-    let radius = radius.unwrap_or(arena.shepherds.radius);
-    let radii = (radius, arena.shepherds.radius);
-    let begin = Scene { task, progress: &progress, targets: &[], robots: &[], radii, bounds: arena.bounds, time: 0.0 };
-    let places = controller.begin(&begin);
-    let mut outside = arena.bounds.map_or(Vector::ZERO, |bounds| bounds.1);
-    outside += Vector([OUTSIDE; 2]);
-    // walls that do not stand yet are in nobody's way at the start
-    let away = |wall: usize| if controller.stands(wall) { Vector::ZERO } else { outside };
-    let drawn: Vec<Point> = (0..arena.walls.len()).map(away).collect();
-    let walls: Vec<Geometry> = arena
-        .walls
-        .iter()
-        .zip(&drawn)
-        .map(|(wall, away)| Geometry::wall(wall.at.from + *away, wall.at.to + *away))
-        .collect();
-    scenario.obstacle.extend(crate::environment::trial::obstacles(&walls));
-    let first_robot = scenario.obstacle.len();
-    for _ in &places {
-        let ball = Ball { centre: outside.0.to_vec(), radius: arena.shepherds.radius };
-        scenario.obstacle.push(obstacle(ObstacleShape::Ball(ball)));
-    }
-    let mut world = build::world::<R, 2>(&scenario, seed, 1)?;
-    let radii = (world.groups().first().map_or(radius, |group| group.radius().to_f64()), radii.1);
-    let errors = space::random::child_seed(seed, ERRORS, 0, 0);
-    let mut fleet = Fleet::new(arena.shepherds, &places, task.way(0), errors);
-    let mut watch = if arena.parts.is_none() { Some(watch(arena)?) } else { None };
-    let parts = arena.parts.unwrap_or(task.legs());
-    let mut targets: Vec<Point> = vec![Vector::ZERO; members];
-    let (mut standing, mut put) = (vec![true; arena.walls.len()], Vec::new());
-    let (mut dispersion, mut held, mut last) = (0.0, 0u64, f64::NAN);
-    let wide = |v: Vector<R, 2>| Vector(v.0.map(R::to_f64));
-    let narrow = |v: Point| Vector(v.0.map(R::of));
+    let mut trial = Trial::<R>::new(arena, seed)?;
     loop {
-        let frame = world.frame();
-        for row in 0..members {
-            let at = wide(frame.columns.position(row));
+        trial.decide();
+        see(trial.shown());
+        if let Some(tried) = trial.tried() {
+            return Ok(Some(tried));
+        }
+        if trial.step().is_multiple_of(ASKED) && stop() {
+            return Ok(None);
+        }
+        trial.perform();
+    }
+}
+
+/// A trial at a moment.
+struct Trial<R: Scalar> {
+    task: Task,
+    bounds: Option<(Point, Point)>,
+    tick: f64,
+    steps: u64,
+    parts: usize,
+    world: World<R, 2>,
+    controller: Box<dyn Controller>,
+    fleet: Fleet,
+    progress: Progress,
+    watch: Option<Watch>,
+    /// Radius of a target's body, and of a shepherd's.
+    radii: (f64, f64),
+    /// Places of the task's walls, and of the shepherds, among the obstacles.
+    first: (usize, usize),
+    /// Where walls and shepherds are drawn, from where they are moved to their places.
+    drawn: (Vec<Point>, Point),
+    targets: Vec<Point>,
+    robots: Vec<Point>,
+    standing: Vec<bool>,
+    goals: Vec<Point>,
+    dispersion: f64,
+    held: u64,
+    last: f64,
+}
+
+impl<R: Scalar> Trial<R>
+where
+    Models: Catalogue<R, 2>,
+{
+    fn new(arena: &Arena<'_>, seed: u64) -> Result<Self, String> {
+        let task = arena.task;
+        let mut scenario = arena.scenario.clone();
+        let first_wall = scenario.obstacle.len();
+        let mut controller = arena.by.controller(task, &arena.walls, arena.timed);
+        let members: usize = scenario.group.0.iter().map(|(_, group)| group.count).sum();
+        let progress = Progress::new(task, members);
+        // bodies are known once the world is; until then the model's own radius does
+        let radius = scenario.group.0.first().and_then(|(_, group)| group.physics.as_ref()?.radius);
+        let radius = radius.unwrap_or(arena.shepherds.radius);
+        let radii = (radius, arena.shepherds.radius);
+        let begin =
+            Scene { task, progress: &progress, targets: &[], robots: &[], radii, bounds: arena.bounds, time: 0.0 };
+        let places = controller.begin(&begin);
+        let mut outside = arena.bounds.map_or(Vector::ZERO, |bounds| bounds.1);
+        outside += Vector([OUTSIDE; 2]);
+        // walls that do not stand yet are in nobody's way at the start
+        let away = |wall: usize| if controller.stands(wall) { Vector::ZERO } else { outside };
+        let drawn: Vec<Point> = (0..arena.walls.len()).map(away).collect();
+        let walls: Vec<Geometry> = arena
+            .walls
+            .iter()
+            .zip(&drawn)
+            .map(|(wall, away)| Geometry::wall(wall.at.from + *away, wall.at.to + *away))
+            .collect();
+        scenario.obstacle.extend(crate::environment::trial::obstacles(&walls));
+        let first_robot = scenario.obstacle.len();
+        for _ in &places {
+            let ball = Ball { centre: outside.0.to_vec(), radius: arena.shepherds.radius };
+            scenario.obstacle.push(obstacle(ObstacleShape::Ball(ball)));
+        }
+        let world = build::world::<R, 2>(&scenario, seed, 1)?;
+        let radii = (world.groups().first().map_or(radius, |group| group.radius().to_f64()), radii.1);
+        let errors = space::random::child_seed(seed, ERRORS, 0, 0);
+        let mut trial = Self {
+            task: task.clone(),
+            bounds: arena.bounds,
+            tick: arena.step,
+            steps: arena.steps,
+            parts: arena.parts.unwrap_or(task.legs()),
+            world,
+            fleet: Fleet::new(arena.shepherds, &places, task.way(0), errors),
+            progress,
+            watch: if arena.parts.is_none() { Some(watch(arena)?) } else { None },
+            radii,
+            first: (first_wall, first_robot),
+            targets: vec![Vector::ZERO; members],
+            robots: Vec::new(),
+            standing: (0..drawn.len()).map(|wall| controller.stands(wall)).collect(),
+            drawn: (drawn, outside),
+            controller,
+            goals: Vec::new(),
+            dispersion: 0.0,
+            held: 0,
+            last: f64::NAN,
+        };
+        trial.observe();
+        Ok(trial)
+    }
+    /// Takes in the moment.
+    fn observe(&mut self) {
+        let frame = self.world.frame();
+        for row in 0..self.targets.len() {
+            let at = Vector(frame.columns.position(row).0.map(R::to_f64));
             if at.finite() {
-                targets[frame.columns.id[row] as usize] = at;
+                self.targets[frame.columns.id[row] as usize] = at;
             }
         }
-        let (step, time) = (world.step_number(), world.time());
-        progress.step(&targets);
-        if let Some(watch) = &mut watch {
+        let targets = &self.targets;
+        self.progress.step(targets);
+        if let Some(watch) = &mut self.watch {
             let positions: Vec<Option<Point>> = targets.iter().copied().map(Some).collect();
             watch.step(&Moment { positions: &positions, velocities: &[], types: &[] });
         }
-        let robots = fleet.places();
-        let scene =
-            Scene { task, progress: &progress, targets: &targets, robots: &robots, radii, bounds: arena.bounds, time };
-        let middle = super::controllers::Flock::of(&targets).centre;
-        dispersion += targets.iter().map(|&target| (target - middle).length()).sum::<f64>() / members.max(1) as f64;
-        held += u64::from(
-            robots.len() > 2 && {
-                let hull = hull(&robots);
-                targets.iter().all(|&target| within(&hull, target))
+        self.robots = self.fleet.places();
+        self.dispersion += self.spread();
+        self.held += u64::from(
+            self.robots.len() > 2 && {
+                let hull = hull(&self.robots);
+                self.targets.iter().all(|&target| within(&hull, target))
             },
         );
-        if progress.share(parts) >= 1.0 && last.is_nan() {
-            last = time;
+        if self.progress.share(self.parts) >= 1.0 && self.last.is_nan() {
+            self.last = self.world.time();
         }
+    }
+    /// Lets the controller decide where shepherds are wanted, and which walls stand.
+    fn decide(&mut self) {
+        let time = self.world.time();
+        let Self { task, progress, targets, robots, radii, bounds, .. } = self;
+        let scene = Scene { task, progress, targets, robots, radii: *radii, bounds: *bounds, time };
         // where nobody decides, nothing is asked
-        let goals =
-            if robots.is_empty() || fleet.due(time, arena.step) { controller.goals(&scene) } else { Vec::new() };
-        put.clear();
-        for (wall, stands) in standing.iter_mut().enumerate() {
-            *stands = controller.stands(wall);
-            put.push((first_wall + wall, stands.then_some(narrow(-drawn[wall]))));
+        let asked = robots.is_empty() || self.fleet.due(time, self.tick);
+        self.goals = if asked { self.controller.goals(&scene) } else { Vec::new() };
+        for (wall, stands) in self.standing.iter_mut().enumerate() {
+            *stands = self.controller.stands(wall);
         }
-        see(Shown { time, targets: &targets, robots: &robots, standing: &standing, target_radius: radii.0 });
-        if step == arena.steps || progress.share(parts) >= 1.0 {
-            let steps = step + 1;
-            return Ok(Some(Tried {
-                steps: step,
-                fitness: watch.as_ref().map_or_else(|| progress.share(parts), Watch::fitness),
-                time: last,
-                path_length: fleet.driven,
-                dispersion: dispersion / steps as f64,
-                held: if robots.len() > 2 { held as f64 / steps as f64 } else { f64::NAN },
-                robots: robots.len() as f64,
-                bumps: fleet.bumps as f64,
-            }));
+    }
+    /// What came of it, where this moment is the last.
+    fn tried(&self) -> Option<Tried> {
+        let step = self.world.step_number();
+        if step < self.steps && self.progress.share(self.parts) < 1.0 {
+            return None;
         }
-        if step.is_multiple_of(ASKED) && stop() {
-            return Ok(None);
+        let (steps, robots) = (step + 1, self.robots.len());
+        Some(Tried {
+            steps: step,
+            fitness: self.watch.as_ref().map_or_else(|| self.progress.share(self.parts), Watch::fitness),
+            time: self.last,
+            path_length: self.fleet.driven,
+            dispersion: self.dispersion / steps as f64,
+            held: if robots > 2 { self.held as f64 / steps as f64 } else { f64::NAN },
+            robots: robots as f64,
+            bumps: self.fleet.bumps as f64,
+        })
+    }
+    /// Moves everybody as it was decided, and takes in the next moment.
+    fn perform(&mut self) {
+        let narrow = |v: Point| Vector(v.0.map(R::of));
+        let (drawn, outside) = &self.drawn;
+        let walls = self.standing.iter().zip(drawn).enumerate();
+        let mut put: Vec<(usize, Option<Vector<R, 2>>)> =
+            walls.map(|(wall, (stands, drawn))| (self.first.0 + wall, stands.then_some(narrow(-*drawn)))).collect();
+        if !self.robots.is_empty() {
+            let around = Around { targets: &self.targets, target_radius: self.radii.0, bounds: self.bounds };
+            self.fleet.step(&self.goals, around, self.world.time(), self.tick);
         }
-        if !robots.is_empty() {
-            let around = Around { targets: &targets, target_radius: radii.0, bounds: arena.bounds };
-            fleet.step(&goals, around, time, arena.step);
+        let places = self.fleet.places();
+        put.extend(places.iter().enumerate().map(|(k, &at)| (self.first.1 + k, Some(narrow(at - *outside)))));
+        self.world.put_obstacles(&put);
+        self.world.step();
+        self.observe();
+    }
+}
+
+impl<R: Scalar + Send> Underway for Trial<R>
+where
+    Models: Catalogue<R, 2>,
+{
+    fn shown(&self) -> Shown<'_> {
+        Shown {
+            time: self.world.time(),
+            targets: &self.targets,
+            robots: &self.robots,
+            standing: &self.standing,
+            target_radius: self.radii.0,
         }
-        put.extend(fleet.places().iter().enumerate().map(|(k, &at)| (first_robot + k, Some(narrow(at - outside)))));
-        world.put_obstacles(&put);
-        world.step();
+    }
+    fn step(&self) -> u64 {
+        self.world.step_number()
+    }
+    fn arrived(&self) -> f64 {
+        self.progress.share(self.parts)
+    }
+    fn spread(&self) -> f64 {
+        let middle = Flock::of(&self.targets).centre;
+        let apart: f64 = self.targets.iter().map(|&target| (target - middle).length()).sum();
+        apart / self.targets.len().max(1) as f64
+    }
+    fn ways(&self) -> Vec<Point> {
+        let frame = self.world.frame();
+        let mut ways = vec![Vector::ZERO; self.targets.len()];
+        for row in 0..ways.len() {
+            ways[frame.columns.id[row] as usize] = Vector(frame.columns.velocity(row).unit().0.map(R::to_f64));
+        }
+        ways.extend(self.fleet.faces());
+        ways
+    }
+    fn posts(&self) -> Vec<Point> {
+        self.controller.posts()
+    }
+    fn go_on(&mut self) -> bool {
+        if self.tried().is_some() {
+            return false;
+        }
+        self.decide();
+        self.perform();
+        true
+    }
+    fn switch(&mut self) -> Option<Vec<f64>> {
+        self.controller.switch_at(self.world.time())
+    }
+    fn explain(&mut self, target: u32) -> Option<Explanation> {
+        self.world.explain(target)
     }
 }
 

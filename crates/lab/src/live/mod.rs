@@ -1,15 +1,17 @@
-//! Worlds to be looked at: a simulation that runs while one watches and changes it, a recorded run or recorded tracks to
-//! scrub through, and a course that was computed to its end.
+//! Worlds to be looked at: a simulation that runs while one watches and changes it, a trial of a formation file, a recorded run or
+//! recorded tracks to scrub through, and a course that was computed to its end.
 //!
 //! What a viewer shows is said in the messages of `docs/explanation/viewer-protocol.md`; this module makes them, and
 //! knows nothing of how they travel.
 
 mod controls;
+mod formed;
 mod recorded;
 mod replayed;
 mod simulated;
 mod tracked;
 
+pub use formed::form;
 pub use recorded::Recorded;
 pub use replayed::{Course, Replayed};
 pub use simulated::simulate;
@@ -83,9 +85,13 @@ pub trait Shown: Send {
     fn seek(&mut self, frame: u64) -> Result<(), LiveError>;
     /// Begins anew, with another seed if one is given.
     fn reset(&mut self, seed: Option<u64>) -> Result<(), LiveError>;
-    /// Changes a value of the scenario from now on. Whether the state went on as it was; else it began anew.
+    /// Changes a value of what its controls show from now on. Whether the state went on as it was; else it began anew.
     fn set(&mut self, path: &str, value: &Json) -> Result<bool, LiveError>;
-    /// The scenario as it is now, as TOML.
+    /// Lets a formation go on to its next walls in the step that begins at the moment shown. What happened, in a word or two.
+    fn go_on(&mut self) -> Result<String, LiveError> {
+        Err(LiveError::Request("there is no formation here that could go on".into()))
+    }
+    /// The file as it is now, as TOML.
     fn file(&self) -> Result<String, LiveError>;
     /// Steps per second (frames in a recording) at which to begin.
     fn natural_rate(&self) -> f64;

@@ -52,7 +52,7 @@ impl Replayed {
 }
 
 /// An obstacle as the message `obstacles` says it.
-fn shape(outline: &Outline, dimensions: usize) -> Json {
+pub(super) fn shape(outline: &Outline, dimensions: usize) -> Json {
     let at = |place: &[f64; 3]| json!(place[..dimensions]);
     match outline {
         Outline::Ball { centre, radius } => json!({ "ball": { "centre": at(centre), "radius": radius } }),

@@ -109,10 +109,9 @@ impl Searched for Formed {
         let replay =
             course::replay(plan, &self.walls[task], (task, method, number), every).map_err(LiveError::Request)?;
         let own = &plan.methods[method];
-        let about = if own.form.about.is_empty() { String::new() } else { format!("{}.\n\n", own.form.about) };
         Ok(Watched::Course(Box::new(Course {
             title: format!("{}: task {}, {}, trial {number}", plan.form.title, plan.tasks[task].name, own.name),
-            about: format!("{about}Dashed: the path, its gates, where the targets start and where they are to go."),
+            about: course::about(own),
             source: plan.sources.text(0).to_owned(),
             seed: Some(plan.seed_of(task, number)),
             guides: report::lines_of(&plan.tasks[task]),

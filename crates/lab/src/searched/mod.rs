@@ -1,9 +1,10 @@
-//! Searches to be looked at: studies, evolutions, designs, maps, optimisations, formations. Each gives an overview, its parts as they
+//! Searches to be looked at: studies, evolutions, designs, maps, optimisations, decompositions, formations. Each gives an overview, its parts as they
 //! are asked for, and what is behind each of its places, which is computed anew when somebody wants to watch it.
 //!
 //! A kind of folder is one file here, and says in its list of kinds (`flockworks::kinds`) that it can be looked at. Nothing is
 //! written: a folder can be looked at while it is being filled.
 
+mod decomposition;
 mod design;
 mod evolution;
 mod formation;
@@ -11,6 +12,7 @@ mod map;
 mod optimisation;
 mod study;
 
+pub use decomposition::Decomposed;
 pub use design::Designed;
 pub use evolution::Evolved;
 pub use formation::Formed;

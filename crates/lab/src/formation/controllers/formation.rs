@@ -1,11 +1,13 @@
-//! Robots in the places of walls, a few walls at a time: when the targets have cleared the first of them, its robots go to the posts
-//! of the next wall that has none. Who goes to which post is by least total distance (Kuhn 1955).
+//! Robots in the places of walls, a few walls at a time: when the targets have cleared the first of them, or a person says so, its robots go
+//! to the posts of the next wall that has none. Who goes to which post is by least total distance (Kuhn 1955).
 
 use super::flock::held;
 use super::posts::Spacing;
 use super::{Controller, Scene};
+use crate::file::Nothing;
 use crate::formation::task::{Task, Wall};
 use crate::{form, tagged};
+use space::obstacles::has_come;
 use terrain::Point;
 use terrain::posts::{assign_to_posts, posts};
 
@@ -35,35 +37,44 @@ impl Default for Rule {
 }
 
 tagged! {
-    /// When robots go on to the next wall.
+    /// What lets robots go on to the next wall.
     pub enum Switch {
-        /// When the targets have cleared the wall.
+        /// That the targets have cleared the wall.
         rule => Rule(Rule);
-        /// At these times, as somebody who watches would tell them to.
-        times in "time", swarm::parameters::Range::NonNegative => Times(Vec<f64>);
+        /// A person who watches, or the times of `switch_at` in place of one.
+        manual => Manual(Nothing);
     }
 }
 
 form! {
     /// Robots in the places of walls.
-    pub struct Formation {
+    pub struct FormationForm {
         /// How many robots.
         robots: usize = [6usize], "1", Within(1.0, 1000.0);
         /// Posts of each wall: robots / posts walls stand at a time.
         per_wall: usize = [3usize], "1", Within(1.0, 100.0);
         /// Where posts stand along a wall.
         spacing: Spacing = [Spacing::Cells], "", Any;
-        /// When robots go on.
+        /// What lets robots go on.
         switch: Switch = [Switch::Rule(Rule::default())], "", Any;
+        /// Times at which they go on whatever the rule says: those at which a person said so.
+        switch_at: Option<Vec<f64>> = none, "time", NonNegative;
         /// Whether robots that stand at all posts of a wall are sensed as the wall itself.
         proxy_wall: bool = [false], "", Any;
+    }
+}
+
+impl FormationForm {
+    /// Whether nothing but a person lets it go on.
+    pub(super) fn waits(&self) -> bool {
+        matches!(self.switch, Switch::Manual(_)) && self.switch_at.is_none()
     }
 }
 
 /// The formation of one trial.
 #[derive(Clone, Debug)]
 pub struct Switching {
-    form: Formation,
+    form: FormationForm,
     walls: Vec<Wall>,
     /// Posts of each wall.
     posts: Vec<Vec<Point>>,
@@ -79,16 +90,19 @@ pub struct Switching {
     beyond: Option<f64>,
     /// Time of the last switch.
     switched: f64,
-    /// Switches made.
-    switches: usize,
+    /// Times at which it goes on whatever the rule says, in order, and how many of them are over.
+    times: Vec<f64>,
+    over: usize,
     /// Whether the robots of a wall all stand there.
     there: Vec<bool>,
 }
 
 impl Switching {
-    pub(super) fn new(form: &Formation, task: &Task, walls: &[Wall]) -> Self {
+    pub(super) fn new(form: &FormationForm, task: &Task, walls: &[Wall]) -> Self {
         let walls = task.ordered(walls);
         let posts = walls.iter().map(|wall| posts(&wall.at, form.per_wall, form.spacing.into())).collect();
+        let mut times = form.switch_at.clone().unwrap_or_default();
+        times.sort_by(f64::total_cmp);
         Self {
             form: form.clone(),
             there: vec![false; walls.len()],
@@ -100,7 +114,8 @@ impl Switching {
             wall: vec![None; form.robots],
             beyond: None,
             switched: 0.0,
-            switches: 0,
+            times,
+            over: 0,
         }
     }
     /// Walls that stand at a time.
@@ -140,15 +155,12 @@ impl Switching {
         scene.targets.iter().zip(&scene.progress.done).all(beyond)
     }
     fn switch(&mut self, scene: &Scene<'_>) {
-        let rule = match &self.form.switch {
-            Switch::Times(times) => {
-                if times.get(self.switches).is_some_and(|&time| scene.time >= time) {
-                    self.go_on(scene);
-                }
-                return;
-            }
-            Switch::Rule(rule) => rule.clone(),
-        };
+        if self.times.get(self.over).is_some_and(|&time| has_come(time, scene.time)) {
+            self.over += 1;
+            self.go_on(scene);
+            return;
+        }
+        let Switch::Rule(rule) = self.form.switch.clone() else { return };
         if self.cleared(scene, &rule) {
             let since = *self.beyond.get_or_insert(scene.time);
             if scene.time - since >= rule.hold {
@@ -166,7 +178,6 @@ impl Switching {
     }
     fn go_on(&mut self, scene: &Scene<'_>) {
         self.first += 1;
-        self.switches += 1;
         self.switched = scene.time;
         self.beyond = None;
         self.assign(scene.robots, false);
@@ -234,6 +245,15 @@ impl Controller for Switching {
     fn stands(&self, wall: usize) -> bool {
         self.form.proxy_wall && self.there[wall]
     }
+    fn posts(&self) -> Vec<Point> {
+        self.posts.iter().flatten().copied().collect()
+    }
+    fn switch_at(&mut self, time: f64) -> Option<Vec<f64>> {
+        // those that are over came before
+        let place = self.times.partition_point(|&other| other <= time).max(self.over);
+        self.times.insert(place, time);
+        Some(self.times.clone())
+    }
 }
 
 #[cfg(test)]
@@ -250,11 +270,12 @@ mod tests {
             leg,
         };
         let walls = [wall(1.2, 0), wall(-1.2, 0), wall(1.2, 1)];
-        let form = Formation {
+        let form = FormationForm {
             robots: 6,
             per_wall: 3,
             spacing: Spacing::Cells,
             switch: Switch::Rule(Rule::default()),
+            switch_at: None,
             proxy_wall: true,
         };
         let mut formation = Switching::new(&form, &task, &walls);
@@ -282,5 +303,43 @@ mod tests {
         let parked: Vec<Point> = goals.iter().copied().filter(|goal| goal[1] != 1.2).collect();
         assert_eq!(parked.len(), 3);
         assert!(parked.iter().all(|spot| spot[0].abs() > 4.5 || spot[1].abs() > 4.5), "{parked:?}");
+    }
+
+    #[test]
+    fn robots_go_on_at_the_times_they_are_told() {
+        let task = turn();
+        let wall = |y: f64| Wall { at: Segment::new([1.2, y - 0.5], [1.2, y]), leg: 0 };
+        let form = FormationForm {
+            robots: 3,
+            per_wall: 3,
+            spacing: Spacing::Cells,
+            switch: Switch::Manual(Nothing),
+            switch_at: Some(vec![5.0]),
+            proxy_wall: false,
+        };
+        assert!(!form.waits() && FormationForm { switch_at: None, ..form.clone() }.waits());
+        let mut formation = Switching::new(&form, &task, &[wall(-3.0), wall(-2.0), wall(-1.0)]);
+        let progress = Progress::new(&task, 1);
+        let targets = [Vector([0.0, -4.0])];
+        let at = |time: f64, robots: &[Point], formation: &mut Switching| {
+            let scene = Scene {
+                task: &task,
+                progress: &progress,
+                targets: &targets,
+                robots,
+                radii: (0.17, 0.17),
+                bounds: None,
+                time,
+            };
+            let goals = if robots.is_empty() { formation.begin(&scene) } else { formation.goals(&scene) };
+            goals[0][1].ceil()
+        };
+        let robots = [Vector([0.0, 0.0]); 3];
+        assert_eq!([at(0.0, &[], &mut formation), at(1.0, &robots, &mut formation)], [-3.0, -3.0]);
+        // what is said now comes before what the file says for later
+        assert_eq!(formation.switch_at(2.0), Some(vec![2.0, 5.0]));
+        assert_eq!([2.0, 3.0, 4.9].map(|time| at(time, &robots, &mut formation)), [-2.0; 3]);
+        assert_eq!([5.0, 90.0].map(|time| at(time, &robots, &mut formation)), [-1.0; 2]);
+        assert_eq!(formation.switch_at(90.0), Some(vec![2.0, 5.0, 90.0]));
     }
 }

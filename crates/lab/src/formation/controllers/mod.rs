@@ -44,7 +44,7 @@ impl Scene<'_> {
 }
 
 /// Tells shepherds where to be.
-pub trait Controller {
+pub trait Controller: Send {
     /// Where the shepherds begin; none where walls alone do it.
     fn begin(&mut self, scene: &Scene<'_>) -> Vec<Point>;
     /// Where each is wanted now. Called once a period, in order of time.
@@ -53,6 +53,16 @@ pub trait Controller {
     fn stands(&self, wall: usize) -> bool {
         let _ = wall;
         false
+    }
+    /// The posts at which its robots come to stand, of all walls; none where robots do not stand in the places of walls.
+    fn posts(&self) -> Vec<Point> {
+        Vec::new()
+    }
+    /// Is told to go on to the next walls at a time that is not over. All times at which it is told to, in order; none where it is no
+    /// formation.
+    fn switch_at(&mut self, time: f64) -> Option<Vec<f64>> {
+        let _ = time;
+        None
     }
 }
 
@@ -68,7 +78,7 @@ tagged! {
         /// The walls that posts stand for: the way back from robots to an environment.
         restored => Restored(posts::Restored);
         /// Robots at posts along a few walls, which go to the next wall when the targets have cleared one.
-        formation => Formation(formation::Formation);
+        formation => Formation(formation::FormationForm);
         /// Robots about a frame that goes along the path, open in front: they push from behind and at the sides.
         piloting => Piloting(frame::Piloting);
         /// Robots on a ring about a frame that goes along the path.
@@ -105,6 +115,14 @@ impl By {
             Self::Lien2005(form) => Box::new(form.clone()),
             Self::PiersonSchwager2015(form) => Box::new(pierson_schwager_2015::Steering::new(form, task)),
         }
+    }
+    /// Whether it goes from wall to wall.
+    pub fn goes_on(&self) -> bool {
+        matches!(self, Self::Formation(_))
+    }
+    /// Whether somebody has to say when it goes on, since the file does not.
+    pub fn waits(&self) -> bool {
+        matches!(self, Self::Formation(form) if form.waits())
     }
     /// Whether it needs walls of the task.
     pub fn needs_walls(&self) -> bool {

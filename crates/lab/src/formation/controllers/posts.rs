@@ -92,6 +92,9 @@ impl Controller for Resting {
     fn goals(&mut self, _: &Scene<'_>) -> Vec<Point> {
         self.places.clone()
     }
+    fn posts(&self) -> Vec<Point> {
+        self.places.clone()
+    }
 }
 
 #[cfg(test)]
