@@ -101,6 +101,19 @@ impl Problem<'_> {
             found.truncate(self.solver.beam);
             beam = found;
         }
+        // what was best leg by leg need not be so on the whole: channels from the start to the goal, and nothing at all, are weighed as well
+        let last = self.task.legs() - 1;
+        let whole = BESIDE.into_iter().map(|beside| {
+            let walls = (0..=last).map(|leg| self.channel(leg, beside));
+            walls.filter(|walls| walls.len() <= self.solver.walls_of_leg).flatten().collect::<Vec<Wall>>()
+        });
+        for walls in whole.chain([Vec::new()]) {
+            let Some(share) = self.share(&walls, last, 0, self.solver.further_trials, &mut trials, stop)? else {
+                return Ok(None);
+            };
+            beam.push(State { walls, share });
+        }
+        self.rank(&mut beam);
         let Some(best) = beam.into_iter().next() else { return Ok(None) };
         let Some(best) = self.pruned(best, &mut trials, stop)? else { return Ok(None) };
         Ok(Some(Solution { walls: self.task.ordered(&best.walls), share: best.share, trials }))
@@ -144,11 +157,8 @@ impl Problem<'_> {
     ) -> Result<Option<Vec<State>>, String> {
         let mut tried = Vec::new();
         // a channel makes what stands beside its leg superfluous
-        let channels = BESIDE.into_iter().map(|beside| {
-            let walls = self.task.channel(leg, beside * self.task.half_width, self.solver.longest);
-            walls.into_iter().filter(|wall| self.fits(wall)).collect::<Vec<_>>()
-        });
-        let channels = channels.filter(|channel| channel.len() <= most);
+        let channels =
+            BESIDE.into_iter().map(|beside| self.channel(leg, beside)).filter(|channel| channel.len() <= most);
         let channels = channels.filter(|_| state.walls.iter().all(|wall| wall.leg != leg));
         let drawn = (0..self.solver.candidates)
             .map(|number| self.candidate(leg, most, &Draws::new(self.seed, attempt, number as u64)));
@@ -172,6 +182,11 @@ impl Problem<'_> {
         }
         self.rank(&mut tried);
         Ok(Some(tried))
+    }
+    /// A channel along a leg, as wide as so many half widths of the path, without what would stand in the way.
+    fn channel(&self, leg: usize, beside: f64) -> Vec<Wall> {
+        let walls = self.task.channel(leg, beside * self.task.half_width, self.solver.longest);
+        walls.into_iter().filter(|wall| self.fits(wall)).collect()
     }
     /// A candidate: one wall, or two that mirror each other; none where it would stand in the way.
     fn candidate(&self, leg: usize, most: usize, draws: &Draws) -> Vec<Wall> {

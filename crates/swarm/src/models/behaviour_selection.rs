@@ -1360,9 +1360,8 @@ mod tests {
                 let exactly = law.sees_by_axes(angles, offset);
                 assert_eq!(told(offset), exactly, "{k}");
                 seen[usize::from(exactly)] += 1;
-                let coarse = core::array::from_fn(|a| {
-                    ((from[a] + offset[a]).to_f64() as f32) - (from[a].to_f64() as f32)
-                });
+                let coarse =
+                    core::array::from_fn(|a| ((from[a] + offset[a]).to_f64() as f32) - (from[a].to_f64() as f32));
                 let exactly = law.sees_by_axes(angles, from + offset - from);
                 let (within, hidden) = rough.tell::<f32>(&coarse);
                 assert!(if exactly { !hidden } else { !within }, "{k}");
