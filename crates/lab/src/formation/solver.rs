@@ -21,6 +21,8 @@ const FINALISTS: usize = 4;
 const LEANING: f64 = 75.0;
 /// Where walls are anchored, in shares of the half width beside the path.
 const BESIDE: [f64; 4] = [0.5, 0.6, 0.8, 1.0];
+/// Channels end this far from the bounds.
+const INSIDE: f64 = 0.05;
 /// Steps of places along a leg and of lengths.
 const STEP: f64 = 0.5;
 
@@ -183,10 +185,14 @@ impl Problem<'_> {
         self.rank(&mut tried);
         Ok(Some(tried))
     }
-    /// A channel along a leg, as wide as so many half widths of the path, without what would stand in the way.
+    /// A channel along a leg, as wide as so many half widths of the path, without what is out of bounds or would stand in the way.
     fn channel(&self, leg: usize, beside: f64) -> Vec<Wall> {
+        let inside = |wall: Wall| match self.bare.bounds {
+            Some((low, high)) => wall.within(low + Vector([INSIDE; 2]), high - Vector([INSIDE; 2])),
+            None => Some(wall),
+        };
         let walls = self.task.channel(leg, beside * self.task.half_width, self.solver.longest);
-        walls.into_iter().filter(|wall| self.fits(wall)).collect()
+        walls.into_iter().filter_map(inside).filter(|wall| self.fits(wall)).collect()
     }
     /// A candidate: one wall, or two that mirror each other; none where it would stand in the way.
     fn candidate(&self, leg: usize, most: usize, draws: &Draws) -> Vec<Wall> {

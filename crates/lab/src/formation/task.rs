@@ -35,6 +35,27 @@ pub struct Wall {
     pub leg: usize,
 }
 
+impl Wall {
+    /// The part of it inside a box; none where that is nothing.
+    pub fn within(&self, low: Point, high: Point) -> Option<Self> {
+        let (from, step) = (self.at.from, self.at.to - self.at.from);
+        let (mut enter, mut leave) = (0.0f64, 1.0f64);
+        for axis in 0..2 {
+            if step[axis] == 0.0 {
+                if from[axis] < low[axis] || from[axis] > high[axis] {
+                    return None;
+                }
+                continue;
+            }
+            let ends = [low, high].map(|end| (end[axis] - from[axis]) / step[axis]);
+            enter = enter.max(ends[0].min(ends[1]));
+            leave = leave.min(ends[0].max(ends[1]));
+        }
+        let part = Segment { from: from + step * enter, to: from + step * leave };
+        (enter < leave).then_some(Self { at: part, leg: self.leg })
+    }
+}
+
 impl Task {
     /// Number of straight legs.
     pub fn legs(&self) -> usize {
@@ -221,6 +242,20 @@ pub(crate) mod tests {
                 assert!(walls.iter().all(|wall| wall.at.relation(&path) == Relation::Apart));
             }
             assert!(walls.iter().all(|wall| wall.at.distance(task.path[0]) >= task.start_radius + ROOM));
+        }
+    }
+
+    #[test]
+    fn of_a_wall_stays_what_is_in_a_box() {
+        let part = |from, to| {
+            let wall = Wall { at: Segment::new(from, to), leg: 1 };
+            wall.within(Vector([-1.0, -1.0]), Vector([1.0, 1.0])).map(|wall| wall.at.numbers())
+        };
+        assert_eq!(part([-3.0, 0.5], [0.0, 0.5]), Some([-1.0, 0.5, 0.0, 0.5]));
+        assert_eq!(part([0.0, -2.0], [0.0, 2.0]), Some([0.0, -1.0, 0.0, 1.0]));
+        assert_eq!(part([0.2, 0.1], [0.3, 0.4]), Some([0.2, 0.1, 0.3, 0.4]));
+        for outside in [[[2.0, 0.0], [3.0, 0.0]], [[-2.0, 1.5], [2.0, 1.5]], [[0.0, 3.0], [3.0, 0.0]]] {
+            assert_eq!(part(outside[0], outside[1]), None);
         }
     }
 
