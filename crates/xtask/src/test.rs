@@ -43,7 +43,16 @@ pub(crate) fn test(workspace: &Workspace) -> Result<(), Failure> {
     if let Some(output) = child.stdout.take() {
         let mut output = BufReader::new(output);
         let mut line = Vec::new();
-        while output.read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
+        loop {
+            match output.read_until(b'\n', &mut line) {
+                Ok(0) => break,
+                Ok(_) => {}
+                // the test binaries have nowhere to write from here on, and fail
+                Err(error) => {
+                    say!("what the tests say cannot be read: {error}");
+                    break;
+                }
+            }
             let text = String::from_utf8_lossy(&line);
             say!("{}", text.trim_end_matches('\n'));
             sum.read(&text);
