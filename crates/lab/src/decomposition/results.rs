@@ -5,10 +5,9 @@ use super::directed::{Found, range};
 use super::form::{Clustering, Effects};
 use super::plan::Plan;
 use super::probe::{Descriptor, NUMBERS, place};
-use crate::environment::claims::Data;
+use crate::environment::claims::{Data, hint, known};
 use crate::study::expression::{Mistake, Selector, Value};
 use core::ops::Range;
-use space::spelling::nearest;
 
 /// What a fragment may do to a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -249,15 +248,7 @@ impl Data for Results<'_> {
         bytes: &Range<usize>,
         _: Option<&[usize]>,
     ) -> Result<Value, Mistake> {
-        let hint = |name: &str, known: &[&str]| match nearest(name, known.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
-        let known: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-        if !known.contains(&name) {
-            let what = format!("`{name}` is nothing that a decomposition tells");
-            return Err(Mistake { help: hint(name, &known), ..Mistake::new(bytes.clone(), what) });
-        }
+        known(name, &NAMES, bytes, "a decomposition")?;
         let words: Vec<&str> = Effect::ALL.iter().map(|effect| effect.word()).chain(["turn"]).collect();
         let intervals: Vec<&str> = self.plan.marked.iter().map(|marked| marked.name.as_str()).collect();
         let (mut effect, mut from, mut interval) = (None, None, None);

@@ -1,11 +1,10 @@
 //! What came of the candidates of a design, and the names by which statements ask for it.
 
 use super::plan::{Plan, Survey};
-use crate::environment::claims::Data;
+use crate::environment::claims::{Data, hint, known};
 use crate::environment::trial::{Outcome, Tried};
 use crate::study::expression::{Mistake, Selector, Value};
 use core::ops::Range;
-use space::spelling::nearest;
 use std::collections::BTreeMap;
 
 /// The trials of a candidate by one group: with the construct, and without it (none where there is no control).
@@ -161,15 +160,7 @@ impl Data for Results<'_> {
         bytes: &Range<usize>,
         drawn: Option<&[usize]>,
     ) -> Result<Value, Mistake> {
-        let hint = |name: &str, known: &[&str]| match nearest(name, known.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
-        let known: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-        if !known.contains(&name) {
-            let what = format!("`{name}` is nothing that a design tells");
-            return Err(Mistake { help: hint(name, &known), ..Mistake::new(bytes.clone(), what) });
-        }
+        known(name, &NAMES, bytes, "a design")?;
         let behaviours = self.plan.behaviour_names();
         let groups: Vec<&str> = self.plan.populations.iter().map(|population| population.name.as_str()).collect();
         let (mut behaviour, mut population) = (None, None);

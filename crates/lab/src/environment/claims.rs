@@ -9,11 +9,33 @@ use crate::study::expression::{Expression, Mistake, Names, Selector, Value};
 use crate::study::form::{Claim, Strength};
 use core::ops::Range;
 use space::random::{Purpose, uniform};
+use space::spelling::nearest;
 
 /// Times that the items are drawn again.
 const DRAWINGS: usize = 400;
 /// Share of the drawings that may disagree.
 const DOUBT: f64 = 0.025;
+
+/// What helps whoever wrote a name that is not there: the nearest that is, or all.
+pub fn hint(name: &str, known: &[&str]) -> String {
+    match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known here: {}", known.join(", ")),
+    }
+}
+
+/// Checks that a name is among those (with what they mean) that `teller`, a kind of files with its article, tells.
+///
+/// # Errors
+/// The name, with what helps.
+pub fn known(name: &str, names: &[(&str, &str)], bytes: &Range<usize>, teller: &str) -> Result<(), Mistake> {
+    let known: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
+    if known.contains(&name) {
+        return Ok(());
+    }
+    let what = format!("`{name}` is nothing that {teller} tells");
+    Err(Mistake { help: hint(name, &known), ..Mistake::new(bytes.clone(), what) })
+}
 
 /// What statements are about.
 pub trait Data {

@@ -3,10 +3,9 @@
 use super::plan::Plan;
 use super::task::Wall;
 use super::trial::Tried;
-use crate::environment::claims::Data;
+use crate::environment::claims::{Data, hint, known};
 use crate::study::expression::{Mistake, Selector, Value};
 use core::ops::Range;
-use space::spelling::nearest;
 use std::collections::BTreeMap;
 
 /// The results of a formation file.
@@ -100,15 +99,7 @@ impl Data for Results<'_> {
         bytes: &Range<usize>,
         drawn: Option<&[usize]>,
     ) -> Result<Value, Mistake> {
-        let hint = |name: &str, known: &[&str]| match nearest(name, known.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
-        let known: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-        if !known.contains(&name) {
-            let what = format!("`{name}` is nothing that a formation file tells");
-            return Err(Mistake { help: hint(name, &known), ..Mistake::new(bytes.clone(), what) });
-        }
+        known(name, &NAMES, bytes, "a formation file")?;
         let tasks: Vec<&str> = self.plan.tasks.iter().map(|task| task.name.as_str()).collect();
         let methods: Vec<&str> = self.plan.methods.iter().map(|method| method.name.as_str()).collect();
         let (mut task, mut method) = (None, None);

@@ -2,7 +2,7 @@
 
 use super::form::{MeasureForm, Quantity};
 use super::plan::Plan;
-use crate::environment::claims::Data;
+use crate::environment::claims::{Data, hint};
 use crate::study::expression::{Mistake, Selector, Value};
 use core::ops::Range;
 use measure::statistics::spearman;
@@ -181,10 +181,6 @@ pub(super) fn check(plan: &Plan) -> Vec<(String, String, String)> {
     let mut wrongs = Vec::new();
     let panels: Vec<&str> = plan.panels.iter().map(|panel| panel.population.name.as_str()).collect();
     let axes: Vec<&str> = plan.axes.iter().map(|axis| axis.name.as_str()).collect();
-    let hint = |name: &str, known: &[&str]| {
-        let near = nearest(name, known.iter().copied());
-        near.map_or_else(|| format!("known here: {}", known.join(", ")), |near| format!("did you mean `{near}`?"))
-    };
     for (name, form) in &plan.form.measure.0 {
         let at = format!("measure.{name}");
         if let Some(panel) = form.panel.as_deref().filter(|panel| !panels.contains(panel)) {

@@ -3,11 +3,10 @@
 use super::form::Search;
 use super::plan::Plan;
 use super::trials::Found;
-use crate::environment::claims::Data;
+use crate::environment::claims::{Data, hint, known};
 use crate::study::expression::{Mistake, Selector, Value};
 use core::ops::Range;
 use search::elites::Elite;
-use space::spelling::nearest;
 use terrain::Construct;
 
 /// A run of a method.
@@ -140,15 +139,7 @@ impl Data for Results<'_> {
         bytes: &Range<usize>,
         drawn: Option<&[usize]>,
     ) -> Result<Value, Mistake> {
-        let hint = |name: &str, known: &[&str]| match nearest(name, known.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
-        let known: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-        if !known.contains(&name) {
-            let what = format!("`{name}` is nothing that an optimisation tells");
-            return Err(Mistake { help: hint(name, &known), ..Mistake::new(bytes.clone(), what) });
-        }
+        known(name, &NAMES, bytes, "an optimisation")?;
         match name {
             "control" => return Ok(Value::Number(self.control.map_or(f64::NAN, |found| found.rate()))),
             "saved" => return Ok(Value::Number(self.saved().unwrap_or(f64::NAN))),

@@ -3,12 +3,11 @@
 use super::model::Fit;
 use super::plan::{BASELINES, Drawn, Plan};
 use crate::design::results::Share;
-use crate::environment::claims::Data;
+use crate::environment::claims::{Data, hint, known};
 use crate::study::expression::{Mistake, Selector, Value};
 use core::ops::Range;
 use measure::statistics::spearman;
 use space::Real;
-use space::spelling::nearest;
 
 /// Numbers of neighbours among which the baseline by parameters chooses.
 const NEIGHBOURS: [usize; 7] = [1, 2, 3, 5, 8, 13, 21];
@@ -285,15 +284,7 @@ impl Data for Results<'_> {
         bytes: &Range<usize>,
         drawn: Option<&[usize]>,
     ) -> Result<Value, Mistake> {
-        let hint = |name: &str, known: &[&str]| match nearest(name, known.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
-        let known: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-        if !known.contains(&name) {
-            let what = format!("`{name}` is nothing that a prediction tells");
-            return Err(Mistake { help: hint(name, &known), ..Mistake::new(bytes.clone(), what) });
-        }
+        known(name, &NAMES, bytes, "a prediction")?;
         let predictors = self.plan.predictors();
         let tests: Vec<&str> = self.tests.iter().map(|test| test.name.as_str()).collect();
         let (mut by, mut test) = (None, None);

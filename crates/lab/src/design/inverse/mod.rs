@@ -14,7 +14,7 @@ use super::execute::tried;
 use super::form::{Design, Inverse as Form};
 use super::plan::{CANDIDATE, Plan, TRIAL};
 use super::results::Results;
-use crate::environment::claims::{self, Data};
+use crate::environment::claims::{self, Data, hint, known};
 use crate::environment::trial::{Population, Tried};
 use crate::file::{Desk, Node};
 use crate::study::expression::{Mistake, Selector, Value};
@@ -475,15 +475,7 @@ impl Data for Found<'_> {
         bytes: &Range<usize>,
         drawn: Option<&[usize]>,
     ) -> Result<Value, Mistake> {
-        let hint = |name: &str, known: &[&str]| match nearest(name, known.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
-        let known: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-        if !known.contains(&name) {
-            let what = format!("`{name}` is nothing that an identification tells");
-            return Err(Mistake { help: hint(name, &known), ..Mistake::new(bytes.clone(), what) });
-        }
+        known(name, &NAMES, bytes, "an identification")?;
         let ways = Way::ALL.map(|(_, word, _)| word);
         let groups: Vec<&str> = self.plan.populations.iter().map(|population| population.name.as_str()).collect();
         let (mut way, mut group) = (None, None);
