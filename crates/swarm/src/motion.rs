@@ -77,6 +77,10 @@ impl<'a> Draws<'a> {
             Some(injected) => self.supplied(injected, name).and_then(|v| v.first().copied()).unwrap_or(neutral),
         })
     }
+    /// Whether quantities are drawn, and not supplied.
+    pub fn drawn(&self) -> bool {
+        self.injected.is_none()
+    }
     /// A vector quantity; the zero vector is neutral.
     #[inline(always)]
     pub fn vector<R: Real, const D: usize>(

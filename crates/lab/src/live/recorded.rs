@@ -139,7 +139,7 @@ fn scene(
             let title = swarm::models::find(&group.model).map_or("", |entry| entry.card.title);
             json!({
                 "name": group.name, "model": group.model, "title": title,
-                "first": range.first, "count": range.count, "radius": space::Real::to_f64(group.radius()),
+                "first": range.first, "count": range.count, "radius": space::Real::to_f64(group.radius() + group.half_axis()),
             })
         }).collect();
         let list = world.obstacles().clone();

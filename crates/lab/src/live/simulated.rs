@@ -103,7 +103,7 @@ where
                 let title = swarm::models::find(&group.model).map_or("", |entry| entry.card.title);
                 json!({
                     "name": group.name, "model": group.model, "title": title,
-                    "first": range.first, "count": range.count, "radius": group.radius().to_f64(),
+                    "first": range.first, "count": range.count, "radius": (group.radius() + group.half_axis()).to_f64(),
                 })
             })
             .collect();

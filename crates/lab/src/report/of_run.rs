@@ -56,6 +56,7 @@ pub fn page(folder: &Path, read: &Read, seed: u64, quick: bool, program: &str) -
         figures.extend(motion.replay(&setting, scenario));
         figures.extend(measured.figures(scenario));
         figures.extend(of_members::nearest_inputs(&Table::open(&folder.join(TRAJECTORY))?, scenario)?);
+        figures.extend(of_members::turns(&Table::open(&folder.join(TRAJECTORY))?, scenario)?);
         figures.extend(motion.scenes(&setting, scenario));
     } else {
         figures.extend(measured.figures(scenario));
@@ -307,7 +308,7 @@ impl Setting {
             }
             let obstacles = plan.obstacles.iter().filter_map(|obstacle| standing(obstacle, &size)).collect();
             let world = swarm::World::new(plan).map_err(|error| StoreError::Refused(error.to_string()))?;
-            let radius = world.groups().iter().map(|group| group.radius().to_f64()).collect();
+            let radius = world.groups().iter().map(|group| (group.radius() + group.half_axis()).to_f64()).collect();
             Ok(Self { dimensions: D, edges, size, obstacles, radius })
         })
     }

@@ -11,6 +11,9 @@ form! {
     pub struct Physics {
         /// Radius of a body; left out, as the model says.
         radius: Option<f64> = none, "length", NonNegative;
+        /// Length of an elongated body along its heading, from tip to tip: a capsule, what is nearer than the radius to its axis.
+        /// Distances to others are then those between axes, to obstacles from the axis. Left out, bodies are round.
+        length: Option<f64> = none, "length", Positive;
         /// What a body can do.
         mobility: BodyMobility = [BodyMobility::Ideal(Nothing)], "", Any;
         /// What happens where the way is not free; left out, as the model says.

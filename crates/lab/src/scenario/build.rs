@@ -580,7 +580,9 @@ where
     }
     let physics = group.physics.as_ref();
     let radius = physics.and_then(|p| p.radius).map(R::of);
-    let body_radius = radius.unwrap_or(prepared.body_radius());
+    let length = physics.and_then(|p| p.length).map(R::of);
+    // whichever way an elongated body lies, it is within half its length
+    let body_radius = length.map_or(R::ZERO, |length| length * R::HALF).most(radius.unwrap_or(prepared.body_radius()));
     let around = Obstacles::new(obstacles.to_vec(), space.periods(), body_radius.most(R::TINY))
         .map_err(|error| Wrong::new("", format!("obstacles: {error}"), ""))?;
     let surroundings = super::start::Surroundings {
@@ -624,6 +626,7 @@ where
         plan.contact = physics.contact.map(Into::into);
         plan.noise = physics.noise.resolved();
         plan.radius = radius;
+        plan.length = length;
     }
     Ok(plan)
 }

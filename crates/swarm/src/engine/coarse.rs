@@ -135,10 +135,9 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
             me[a] = L::splat(position[a][row]);
             heading[a] = L::splat(self.heading[a]);
         }
-        let (mut low, mut high, mut all_round) = ([zero; RINGS], [zero; RINGS], [0u32; RINGS]);
+        let (mut low, mut high) = ([zero; RINGS], [zero; RINGS]);
         for s in 0..RINGS {
             (low[s], high[s]) = (L::splat(self.low[s]), L::splat(self.high[s]));
-            all_round[s] = if self.within_cone[s] { 0 } else { u32::MAX };
         }
         let limited = self.within_cone.contains(&true);
         let (cone, margin) = (L::splat(self.cone), L::splat(self.cone_margin));
@@ -146,8 +145,8 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
         let mut unsure = 0;
         for block in 0..padded / BLOCK {
             let first = block * BLOCK;
-            let (mut nearer, mut perhaps) = ([0u32; RINGS], [0u32; RINGS]);
-            let (mut seen, mut told) = (0, 0);
+            let mut members = [0; RINGS];
+            let (mut nearest, mut blurred) = (0, 0);
             for part in (0..BLOCK).step_by(L::WIDTH) {
                 let mut offset = me;
                 for a in 0..D {
@@ -155,26 +154,31 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
                 }
                 let squared = dot(&offset, &offset);
                 squared.store(&mut squares[first + part..]);
-                for s in 0..RINGS {
-                    nearer[s] |= squared.less(low[s]).bits() << part;
-                    perhaps[s] |= squared.less(high[s]).bits() << part;
-                }
+                let (mut seen, mut blur) = (L::Mask::all_of(true), L::Mask::all_of(false));
                 if limited {
                     let along = dot(&heading, &offset);
                     let ahead = along * along.size() - cone * squared;
-                    let sees = margin.less_equal(ahead);
-                    seen |= sees.bits() << part;
-                    told |= sees.or(ahead.less(-margin)).bits() << part;
+                    seen = margin.less_equal(ahead);
+                    blur = margin.less_equal(ahead.size()).not().and(squared.less(high[RINGS - 1]));
                 }
+                let mut inside = L::Mask::all_of(false);
+                for s in 0..RINGS {
+                    let nearer = squared.less(low[s]);
+                    blur = blur.or(squared.less(high[s]).and(nearer.not()));
+                    let ring = nearer.and(inside.not());
+                    let ring = if self.within_cone[s] { ring.and(seen) } else { ring };
+                    members[s] |= ring.bits() << part;
+                    if s == 0 {
+                        nearest |= nearer.bits() << part;
+                    }
+                    inside = nearer;
+                }
+                blurred |= blur.bits() << part;
             }
-            let mut inside = 0;
-            let mut blurred = if limited { !told & perhaps[RINGS - 1] } else { 0 };
             for s in 0..RINGS {
-                marks[s][block] = (nearer[s] & !inside & (seen | all_round[s])) as u16;
-                inside = nearer[s];
-                blurred |= nearer[s] ^ perhaps[s];
+                marks[s][block] = members[s] as u16;
             }
-            close[block] = nearer[0] as u16;
+            close[block] = nearest as u16;
             unsure |= blurred & !(if block == own_block { own_bit } else { 0 });
         }
         // all but oneself

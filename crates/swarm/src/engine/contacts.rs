@@ -1,15 +1,24 @@
 //! Contacts after everyone's motion: walls and obstacles first, then bodies.
 
 use crate::engine::kernel::{Close, mask_of, minimal_lanes};
-use crate::engine::world::World;
+use crate::engine::world::{Group, World};
 use crate::motion::{BLOCK, WIDEST, dot, splat};
 use crate::parameters::Scalar;
-use crate::physics::{Contact, Met, free_of_environment, resolve};
+use crate::physics::{Contact, Met, capsule, free_of_environment, resolve};
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
-use space::{LiveGrid, Vector};
+use space::{Columns, Edge, LiveGrid, Vector};
 
 /// Bodies are searched by cells from this number on.
 const CELLS_FROM: usize = 512;
+
+/// How a body lies.
+#[derive(Clone, Copy)]
+struct Pose<R, const D: usize> {
+    place: Vector<R, D>,
+    velocity: Vector<R, D>,
+    /// From its place to the front end of its axis; zero where it is round.
+    axis: Vector<R, D>,
+}
 
 impl<R: Scalar, const D: usize> World<R, D> {
     /// Radius of a body as others meet it.
@@ -29,16 +38,12 @@ impl<R: Scalar, const D: usize> World<R, D> {
                     continue;
                 }
                 let id = self.now.id[row];
-                let group = &self.groups[self.group_of(id)];
-                let from = self.now.position(row);
-                // the straight way, also where it leads through a seam
-                let to = from + self.space.minimal(self.next.position(row) - from);
-                let velocity = self.next.velocity(row);
-                let out = resolve(group.contact, &self.space, &self.obstacles, from, to, velocity, group.radius);
-                if out.met != Met::Nothing {
-                    self.next.set_position(row, self.space.place(out.place));
-                    self.next.set_velocity(row, out.velocity);
-                    self.met[id as usize] = out.met;
+                let (place, velocity, met) =
+                    self.within_environment(id, row, self.next.position(row), self.next.velocity(row));
+                if met != Met::Nothing {
+                    self.next.set_position(row, self.space.place(place));
+                    self.next.set_velocity(row, velocity);
+                    self.met[id as usize] = met;
                 }
             }
         }
@@ -57,6 +62,116 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 let met = self.met[self.next.id[row] as usize] != Met::Nothing;
                 self.next.state[column][row] = if met { R::ONE } else { R::ZERO };
             }
+        }
+    }
+
+    /// A move as walls and obstacles let it end, and what was met.
+    fn within_environment(
+        &self,
+        id: u32,
+        row: usize,
+        to: Vector<R, D>,
+        velocity: Vector<R, D>,
+    ) -> (Vector<R, D>, Vector<R, D>, Met) {
+        let group = &self.groups[self.group_of(id)];
+        let from = self.now.position(row);
+        // the straight way, also where it leads through a seam
+        let to = from + self.space.minimal(to - from);
+        if group.half > R::ZERO {
+            return self.elongated_within_environment(group, row, to, velocity);
+        }
+        let out = resolve(group.contact, &self.space, &self.obstacles, from, to, velocity, group.radius);
+        (out.place, out.velocity, out.met)
+    }
+
+    /// The same for an elongated body: refused, it stays and turns where it can turn; sliding, it is pushed out all along.
+    #[cold]
+    fn elongated_within_environment(
+        &self,
+        group: &Group<R, D>,
+        row: usize,
+        to: Vector<R, D>,
+        velocity: Vector<R, D>,
+    ) -> (Vector<R, D>, Vector<R, D>, Met) {
+        let from = pose(group.half, self.now.position(row), self.now.velocity(row));
+        match group.contact {
+            Contact::Slide => {
+                let out = resolve(group.contact, &self.space, &self.obstacles, from.place, to, velocity, group.radius);
+                let (place, met) = self.pushed_out(group, pose(group.half, out.place, out.velocity));
+                (place, out.velocity, if out.met == Met::Nothing { met } else { out.met })
+            }
+            Contact::Refuse => {
+                let moved = pose(group.half, to, velocity);
+                let met = self.in_the_way(group, from, moved);
+                if met == Met::Nothing {
+                    return (to, velocity, met);
+                }
+                let turned = Pose { place: from.place, ..moved };
+                let turns = self.in_the_way(group, from, turned) == Met::Nothing;
+                (from.place, if turns { velocity } else { from.velocity }, met)
+            }
+            Contact::Free | Contact::Reflect | Contact::Clamp => (to, velocity, Met::Nothing),
+        }
+    }
+
+    /// What walls and obstacles stand in the way of a body, all along its axis.
+    fn in_the_way(&self, group: &Group<R, D>, from: Pose<R, D>, to: Pose<R, D>) -> Met {
+        for along in capsule::points(group.half, group.radius) {
+            let share = along / group.half.most(R::TINY);
+            let (start, end) = (from.place + from.axis * share, to.place + to.axis * share);
+            let met = free_of_environment(&self.space, &self.obstacles, start, end, group.radius);
+            if met != Met::Nothing {
+                return met;
+            }
+        }
+        Met::Nothing
+    }
+
+    /// Where an elongated body comes to lie when it is pushed out of obstacles and walls, and what pushed.
+    fn pushed_out(&self, group: &Group<R, D>, body: Pose<R, D>) -> (Vector<R, D>, Met) {
+        let (mut place, mut met) = (body.place, Met::Nothing);
+        // what pushes out of one obstacle may push into the next; a corner takes two
+        for _ in 0..2 {
+            let (mut deepest, mut push) = (R::ZERO, Vector::ZERO);
+            for along in capsule::points(group.half, group.radius) {
+                let point = place + body.axis * (along / group.half);
+                self.obstacles.near(point, group.radius, |_, _, near| {
+                    let depth = group.radius - near.distance;
+                    if depth > deepest {
+                        (deepest, push) = (depth, near.away * depth);
+                    }
+                });
+            }
+            if deepest <= R::ZERO {
+                break;
+            }
+            met = Met::Obstacle;
+            let out = place + push;
+            if out.finite() && self.obstacles.first_crossing(place, out).is_none() {
+                place = out;
+            }
+        }
+        for a in 0..D {
+            if let Edge::Walls(length) = self.space.edges[a] {
+                let middle = length * R::HALF;
+                let room = group.radius + body.axis[a].abs();
+                let within = place[a].clamped(room.least(middle), (length - room).most(middle));
+                if within != place[a] {
+                    (place.0[a], met) = (within, Met::Wall);
+                }
+            }
+        }
+        (place, met)
+    }
+
+    /// The shortest way from the axis of a body to that of another, whose centre lies at an offset.
+    #[inline(always)]
+    fn way(&self, mine: Vector<R, D>, other: u32, velocity: Vector<R, D>, offset: Vector<R, D>) -> Vector<R, D> {
+        if self.longest > R::ZERO {
+            let half = self.groups[self.group_of(other)].half;
+            capsule::between(offset, mine, pose(half, Vector::ZERO, velocity).axis)
+        } else {
+            offset
         }
     }
 
@@ -99,7 +214,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
     pub(crate) fn note_close(&mut self) {
         let agents = self.now.len();
         let refuse = self.groups.iter().any(|g| g.meets && g.contact == Contact::Refuse && g.radius > R::ZERO);
-        if refuse && agents < CELLS_FROM && self.reach.is_none() {
+        if refuse && self.longest == R::ZERO && agents < CELLS_FROM && self.reach.is_none() {
             let blocks = agents.div_ceil(BLOCK);
             self.close = Close { blocks, marks: vec![0; agents * blocks], within: vec![R::ZERO; agents] };
         }
@@ -109,7 +224,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
     /// those after it. Bodies that already touch may move apart.
     fn refuse_bodies(&mut self) {
         let agents = self.now.len();
-        let widest = self.groups.iter().fold(R::ZERO, |w, g| w.most(g.radius));
+        let widest = self.groups.iter().fold(R::ZERO, |w, g| w.most(g.radius + g.half));
         let same = self.groups.iter().all(|g| g.radius == widest && g.meets);
         let row_of = |rows: &[u32], id: usize| if rows.is_empty() { id } else { rows[id] as usize };
         if agents < CELLS_FROM && same {
@@ -139,37 +254,70 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 }
                 continue;
             }
-            if self.met[id] != Met::Nothing {
+            let from = pose(group.half, self.now.position(row), self.now.velocity(row));
+            let mut to = pose(group.half, self.next.position(row), self.next.velocity(row));
+            if self.met[id] == Met::Nothing {
+                if self.meets_body(row, &from, &to, &places, cells.as_ref()) {
+                    self.met[id] = Met::Member;
+                    to.place = from.place;
+                }
+            } else if group.half == R::ZERO {
                 continue;
             }
-            let (from, to) = (self.now.position(row), self.next.position(row));
-            let mut touched = false;
-            let mut test = |other: u32, offset: Vector<R, D>| {
-                if other as usize != row {
-                    let reach = group.radius + self.radius(self.now.id[other as usize]);
-                    let after = offset.length_squared();
-                    let before = self.space.offset(from, places.position(other as usize)).length_squared();
-                    touched |= after < reach * reach && after <= before;
-                }
-            };
-            let searched = cells
-                .as_ref()
-                .is_some_and(|cells| cells.within(to, widest + widest, |other, offset, _| test(other, offset)));
-            if !searched {
-                for other in 0..agents {
-                    test(other as u32, self.space.offset(to, places.position(other)));
-                }
+            if group.half > R::ZERO && self.met[id] != Met::Nothing {
+                // a body that stays turns where that touches nothing
+                let turns = self.in_the_way(group, from, to) == Met::Nothing
+                    && !self.meets_body(row, &from, &to, &places, cells.as_ref());
+                to.velocity = if turns { to.velocity } else { from.velocity };
+                self.next.set_velocity(row, to.velocity);
+                places.set_velocity(row, to.velocity);
             }
-            if touched {
-                self.next.set_position(row, from);
-                self.met[id] = Met::Member;
-            } else {
-                places.set_position(row, to);
+            if self.met[id] == Met::Nothing {
+                places.set_velocity(row, to.velocity);
+                places.set_position(row, to.place);
                 if let Some(cells) = &mut cells {
-                    cells.follow(row, to);
+                    cells.follow(row, to.place);
                 }
+            } else {
+                self.next.set_position(row, from.place);
             }
         }
+    }
+
+    /// Whether a body that comes to lie so touches another, in the poses that count, which it does not move away from; one that
+    /// stays where it is may touch whom it touched.
+    fn meets_body(
+        &self,
+        row: usize,
+        from: &Pose<R, D>,
+        to: &Pose<R, D>,
+        places: &Columns<R, D>,
+        cells: Option<&LiveGrid<R, D>>,
+    ) -> bool {
+        let group = &self.groups[self.group_of(self.now.id[row])];
+        let (radius, stays) = (group.radius, group.half > R::ZERO && from.place == to.place);
+        let mut touched = false;
+        let mut test = |other: usize, offset: Vector<R, D>| {
+            if other != row {
+                let (id, velocity) = (self.now.id[other], places.velocity(other));
+                let reach = radius + self.radius(id);
+                let after = self.way(to.axis, id, velocity, offset).length_squared();
+                if after < reach * reach {
+                    let offset = self.space.offset(from.place, places.position(other));
+                    let before = self.way(from.axis, id, velocity, offset).length_squared();
+                    touched |= after < before || (after == before && !stays);
+                }
+            }
+        };
+        let widest = self.groups.iter().fold(R::ZERO, |w, g| w.most(g.radius + g.half));
+        let searched =
+            cells.is_some_and(|cells| cells.within(to.place, widest + widest, |o, offset, _| test(o as usize, offset)));
+        if !searched {
+            for other in 0..self.now.len() {
+                test(other, self.space.offset(to.place, places.position(other)));
+            }
+        }
+        touched
     }
 
     /// Whether a move would end in contact with a body that it does not move away from.
@@ -236,7 +384,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
     /// Pushes overlapping bodies apart by half the overlap each, never through a wall.
     fn push_apart(&mut self) {
         let agents = self.now.len();
-        let widest = self.groups.iter().fold(R::ZERO, |w, g| w.most(g.radius));
+        let widest = self.groups.iter().fold(R::ZERO, |w, g| w.most(g.radius + g.half));
         self.push.clear();
         self.push.resize(agents, Vector::ZERO);
         let cells = if agents >= 64 { LiveGrid::new(&self.space, widest + widest, &self.next) } else { None };
@@ -248,15 +396,19 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 continue;
             }
             let place = self.next.position(row);
+            let axis = pose(group.half, place, self.next.velocity(row)).axis;
             let mut sum = Vector::ZERO;
             let mut test = |other: u32, offset: Vector<R, D>| {
                 let j = self.next.id[other as usize];
                 let reach = group.radius + self.radius(j);
-                let distance = offset.length();
+                let way = self.way(axis, j, self.next.velocity(other as usize), offset);
+                let distance = way.length();
                 if j != id && self.radius(j) > R::ZERO && distance < reach {
-                    // coincident bodies part along the first axis, by their ids
+                    // bodies that lie across each other part as their centres do, coincident ones along the first axis, by their ids
                     let away = if distance > R::TINY {
-                        -(offset / distance)
+                        -(way / distance)
+                    } else if offset.length() > R::TINY {
+                        -offset.unit()
                     } else {
                         Vector::axis(0) * if id < j { -R::ONE } else { R::ONE }
                     };
@@ -278,12 +430,13 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 continue;
             }
             let id = self.next.id[row];
-            let radius = self.radius(id);
+            let group = &self.groups[self.group_of(id)];
             let (from, place) = (self.now.position(row), self.next.position(row));
             let to = place + push[row];
             let straight = from + self.space.minimal(self.space.place(to) - from);
             self.met[id as usize] = Met::Member;
-            let free = free_of_environment(&self.space, &self.obstacles, place, to, radius) == Met::Nothing
+            let body = pose(group.half, place, self.next.velocity(row));
+            let free = self.in_the_way(group, body, Pose { place: to, ..body }) == Met::Nothing
                 && self.obstacles.first_crossing(from, straight).is_none();
             if free {
                 self.next.set_position(row, self.space.place(to));
@@ -300,28 +453,34 @@ impl<R: Scalar, const D: usize> World<R, D> {
         velocity: Vector<R, D>,
     ) -> (Vector<R, D>, Vector<R, D>) {
         let group = &self.groups[self.group_of(row as u32)];
-        let from = self.now.position(row);
-        let straight = from + self.space.minimal(to - from);
-        let mut out = resolve(group.contact, &self.space, &self.obstacles, from, straight, velocity, group.radius);
-        out.place = self.space.place(out.place);
-        if group.contact == Contact::Refuse && group.radius > R::ZERO && group.meets && out.met == Met::Nothing {
-            let touched = (0..self.now.len()).filter(|&other| other != row).any(|other| {
-                let reach = group.radius + self.radius(other as u32);
-                let after = self.space.offset(out.place, self.now.position(other)).length_squared();
-                let before = self.space.offset(from, self.now.position(other)).length_squared();
-                after < reach * reach && after <= before
-            });
-            if touched {
-                out.place = from;
-                out.met = Met::Member;
+        let (place, mut velocity, mut met) = self.within_environment(row as u32, row, to, velocity);
+        let mut place = self.space.place(place);
+        if group.contact == Contact::Refuse && group.radius > R::ZERO && group.meets {
+            let from = pose(group.half, self.now.position(row), self.now.velocity(row));
+            let mut to = pose(group.half, place, velocity);
+            if met == Met::Nothing && self.meets_body(row, &from, &to, &self.now, None) {
+                met = Met::Member;
+                to.place = from.place;
+                place = from.place;
+            }
+            let turns = || {
+                self.in_the_way(group, from, to) == Met::Nothing && !self.meets_body(row, &from, &to, &self.now, None)
+            };
+            if group.half > R::ZERO && met != Met::Nothing && !turns() {
+                velocity = from.velocity;
             }
         }
-        self.met[row] = out.met;
-        if group.steps && group.contact == Contact::Refuse && out.met != Met::Nothing {
-            out.velocity = Vector::ZERO;
-        }
-        (out.place, out.velocity)
+        let stops = group.steps && group.contact == Contact::Refuse && met != Met::Nothing;
+        self.met[row] = met;
+        (place, if stops { Vector::ZERO } else { velocity })
     }
+}
+
+/// How a body of a half axis lies.
+#[inline(always)]
+fn pose<R: Scalar, const D: usize>(half: R, place: Vector<R, D>, velocity: Vector<R, D>) -> Pose<R, D> {
+    let axis = if half > R::ZERO { velocity.unit() * half } else { Vector::ZERO };
+    Pose { place, velocity, axis }
 }
 
 /// Bodies of one radius: every move, in the order of ids, against all places that count, several at a time.

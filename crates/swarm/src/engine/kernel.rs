@@ -8,7 +8,7 @@ use crate::motion::{
     NearObstacle, Other, Percepts, Rough, Single, Start, Stream, Summed, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
-use crate::physics::Mobility;
+use crate::physics::{Mobility, capsule};
 use crate::resources::Resources;
 use crate::selection::{self, Candidates, NamedSet, RINGS, Reach, Rings};
 use crate::sensing::robot::{Memory, Robot, RobotScratch};
@@ -51,8 +51,10 @@ pub(crate) struct View<'a, R, const D: usize> {
     pub(crate) mortality: Option<usize>,
     /// Rows by id, where they are sorted and somebody needs it.
     pub(crate) rows: Option<&'a [u32]>,
-    /// Body radius by group, and first ids, for occlusion and scanners.
-    pub(crate) bodies: &'a [(u32, R)],
+    /// Bodies by group.
+    pub(crate) bodies: &'a [Body<R>],
+    /// The longest half axis of a body; 0 where all are round.
+    pub(crate) longest: R,
     /// Whether members may be unequally fast.
     pub(crate) uneven: bool,
     pub(crate) seed: u64,
@@ -78,10 +80,27 @@ impl<R: Scalar, const D: usize> View<'_, R, D> {
         }
         heading
     }
-    pub(crate) fn body_radius(&self, id: u32) -> R {
-        let group = self.bodies.partition_point(|&(first, _)| first <= id);
-        group.checked_sub(1).map_or(R::ZERO, |g| self.bodies[g].1)
+    fn body(&self, id: u32) -> Option<&Body<R>> {
+        let group = self.bodies.partition_point(|body| body.first <= id);
+        self.bodies.get(group.checked_sub(1)?)
     }
+    pub(crate) fn body_radius(&self, id: u32) -> R {
+        self.body(id).map_or(R::ZERO, |body| body.radius)
+    }
+    /// From the centre of a body to the front end of its axis, by its velocity.
+    fn axis(&self, id: u32, velocity: Vector<R, D>) -> Vector<R, D> {
+        self.body(id).map_or(Vector::ZERO, |body| velocity.unit() * body.half)
+    }
+}
+
+/// The bodies of a group.
+#[derive(Clone, Copy)]
+pub(crate) struct Body<R> {
+    /// First id of the group.
+    pub(crate) first: u32,
+    pub(crate) radius: R,
+    /// Half the length of the axis; 0 where they are round.
+    pub(crate) half: R,
 }
 
 /// Errors of computation and execution.
@@ -138,6 +157,10 @@ pub(crate) struct Stages<R, const D: usize> {
     pub(crate) dt: R,
     /// Body radius.
     pub(crate) radius: R,
+    /// Half the length of a body's axis; 0 where it is round.
+    pub(crate) half: R,
+    /// Whether anybody's body is elongated, so that distances are those between axes.
+    pub(crate) elongated: bool,
     /// Whether motions are performed exactly as wanted.
     pub(crate) plain: bool,
 }
@@ -545,16 +568,24 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         if self.columns.is_empty() && self.body_columns.is_empty() {
             return;
         }
-        scratch.own.clear();
-        scratch.own.extend(self.columns.iter().map(|&c| now.state[c][row]));
-        scratch.body.clear();
-        scratch.body.extend(self.body_columns.iter().map(|&c| now.state[c][row]));
+        scratch.own.resize(self.columns.len(), R::ZERO);
+        for (own, &column) in scratch.own.iter_mut().zip(&self.columns) {
+            *own = now.state[column][row];
+        }
+        scratch.body.resize(self.body_columns.len(), R::ZERO);
+        for (body, &column) in scratch.body.iter_mut().zip(&self.body_columns) {
+            *body = now.state[column][row];
+        }
     }
-    /// Obstacles and walls near a place.
+    /// Obstacles and walls near an agent.
     #[inline(never)]
-    fn perceive_obstacles(&self, view: &View<'_, R, D>, place: Vector<R, D>, to: &mut Vec<NearObstacle<R, D>>) {
+    fn perceive_obstacles(&self, view: &View<'_, R, D>, row: usize, to: &mut Vec<NearObstacle<R, D>>) {
         to.clear();
         let Some(reach) = self.obstacle_reach else { return };
+        let place = view.now.position(row);
+        if self.half > R::ZERO {
+            return self.perceive_along_axis(view, row, reach, to);
+        }
         if !view.obstacles.is_empty() {
             view.obstacles.near(place, reach, |_, shape, near| {
                 let radius = if let Shape::Ball { radius, .. } = shape { *radius } else { R::INFINITY };
@@ -564,6 +595,35 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         for a in 0..D {
             if let Edge::Walls(length) = view.space.edges[a] {
                 for (distance, sign) in [(place.0[a], R::ONE), (length - place.0[a], -R::ONE)] {
+                    if distance < reach {
+                        let away = Vector::axis(a) * sign;
+                        to.push(NearObstacle { offset: -away * distance, distance, away, radius: R::INFINITY });
+                    }
+                }
+            }
+        }
+    }
+    /// As [`Self::perceive_obstacles`], from that point of the body's axis that is nearest to each.
+    #[cold]
+    fn perceive_along_axis(&self, view: &View<'_, R, D>, row: usize, reach: R, to: &mut Vec<NearObstacle<R, D>>) {
+        let (place, heading) = (view.now.position(row), view.now.velocity(row).unit());
+        view.obstacles.near(place, reach + self.half, |_, shape, _| {
+            let near = |along: R| (along, shape.nearest(place + heading * along));
+            let nearest = capsule::points(self.half, self.radius)
+                .map(near)
+                .reduce(|a, b| if b.1.distance < a.1.distance { b } else { a });
+            if let Some((along, near)) = nearest
+                && near.distance < reach
+            {
+                let radius = if let Shape::Ball { radius, .. } = shape { *radius } else { R::INFINITY };
+                let offset = near.point - (place + heading * along);
+                to.push(NearObstacle { offset, distance: near.distance, away: near.away, radius });
+            }
+        });
+        for a in 0..D {
+            if let Edge::Walls(length) = view.space.edges[a] {
+                let aside = self.half * heading[a].abs();
+                for (distance, sign) in [(place.0[a] - aside, R::ONE), (length - place.0[a] - aside, -R::ONE)] {
                     if distance < reach {
                         let away = Vector::axis(a) * sign;
                         to.push(NearObstacle { offset: -away * distance, distance, away, radius: R::INFINITY });
@@ -629,7 +689,11 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                         reach => reach,
                     },
                 };
-                self.candidates(view, row, reach, scratch);
+                if self.elongated {
+                    self.candidates_between_axes(view, row, reach, scratch);
+                } else {
+                    self.candidates(view, row, reach, scratch);
+                }
                 if ideal.is_perfect() { false } else { self.limit(ideal, view, row, scratch) }
             }
             Sensing::Scanner(robot) => {
@@ -695,6 +759,29 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 scratch.clear();
                 pairs(view, row, place, R::INFINITY, scratch);
             }
+        }
+    }
+    /// As [`Self::candidates`], by the shortest ways between the axes of bodies.
+    #[cold]
+    fn candidates_between_axes(&self, view: &View<'_, R, D>, row: usize, reach: Reach<R>, scratch: &mut Scratch<R, D>) {
+        let wider = match reach {
+            Reach::Within(radius) => Reach::Within(radius + self.half + view.longest),
+            // who the nearest are is known when all ways are
+            Reach::Nearest(_) | Reach::All => Reach::All,
+        };
+        self.candidates(view, row, wider, scratch);
+        let mine = view.axis(view.now.id[row], view.now.velocity(row));
+        for k in 0..scratch.found {
+            let other = scratch.row[k] as usize;
+            let axis = view.axis(view.others.id[other], view.others.velocity(other));
+            let way = capsule::between(scratch.at(k), mine, axis);
+            for a in 0..D {
+                scratch.offset[a][k] = way[a];
+            }
+            scratch.squared[k] = way.length_squared();
+        }
+        if let Reach::Within(radius) = reach {
+            scratch.retain(|scratch, k| scratch.squared[k] < radius * radius);
         }
     }
     fn within(&self, view: &View<'_, R, D>, row: usize, place: Vector<R, D>, radius: R, scratch: &mut Scratch<R, D>) {
@@ -1310,7 +1397,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             obstacles.clear();
             obstacles.extend(scratch.robot.obstacles(reach));
         } else {
-            stages.perceive_obstacles(view, position, &mut obstacles);
+            stages.perceive_obstacles(view, row, &mut obstacles);
         }
         stages.load(view.now, row, scratch);
         // whole blocks, where they are read by blocks
@@ -1404,7 +1491,9 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
     #[inline(always)]
     fn room(&self, scratch: &Scratch<R, D>) -> R {
         match (&self.stages.sensing, self.stages.obstacle_reach) {
-            (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() => reach - self.stages.radius,
+            (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() && self.stages.half == R::ZERO => {
+                reach - self.stages.radius
+            }
             _ => R::ZERO,
         }
     }
@@ -1697,7 +1786,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
     /// Whether the stages around the law are the ones it streams through.
     fn direct(&self) -> bool {
         let stages = &self.listed.stages;
-        stages.own_sets && matches!(&stages.sensing, Sensing::Ideal(ideal) if ideal.is_perfect())
+        stages.own_sets && !stages.elongated && matches!(&stages.sensing, Sensing::Ideal(ideal) if ideal.is_perfect())
     }
 
     /// Adds the neighbours of one run of rows to the sums of a block. With `IMAGES`, displacements are made minimal pair by
@@ -1941,7 +2030,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         let stages = &self.listed.stages;
         let position = view.now.position(row);
         if stages.obstacle_reach.is_some() {
-            stages.perceive_obstacles(view, position, &mut scratch.obstacles);
+            stages.perceive_obstacles(view, row, &mut scratch.obstacles);
         }
         stages.load(view.now, row, scratch);
         let mut draws = Draws::new(view.seed, view.step, view.now.id[row], view.injected);

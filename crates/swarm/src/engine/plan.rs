@@ -138,6 +138,8 @@ pub struct GroupPlan<R, const D: usize> {
     pub contact: Option<Contact>,
     /// Body radius; `None`: as the model says.
     pub radius: Option<R>,
+    /// Length of an elongated body along its heading, from tip to tip; `None`: bodies are round.
+    pub length: Option<R>,
     /// Errors of computation and execution.
     pub noise: MotionNoise<R>,
 }
@@ -162,6 +164,7 @@ impl<R: Real, const D: usize> GroupPlan<R, D> {
             mobility: Mobility::Ideal,
             contact: None,
             radius: None,
+            length: None,
             noise: MotionNoise::default(),
         }
     }

@@ -7,15 +7,16 @@ use crate::engine::beside::{Adapts, Pace, Taxis, Told};
 use crate::engine::coarse::Coarse;
 use crate::engine::compiled::Compiled;
 use crate::engine::conduct::Conduct;
-use crate::engine::kernel::{Close, Index, Kernel, Scratch, Sensing, Stages, View};
+use crate::engine::kernel::{Body, Close, Index, Kernel, Scratch, Sensing, Stages, View};
 use crate::engine::layered::{Layered, column_of, laws};
 use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
-use crate::models::{Catalogue, Models};
+use crate::models::{Catalogue, Models, Prepared};
 use crate::motion::{Injected, Motion, Start as Completion};
 use crate::parameters::{Scalar, Value};
-use crate::physics::{Contact, Met, Mobility};
+use crate::physics::{Contact, Met, Mobility, capsule};
 use crate::resources::Resources;
 use crate::selection::{NamedSet, Perception, Reach, Rings};
+use crate::sensing::Occlusion;
 use crate::sensing::robot::Memory;
 use space::obstacles::Obstacles;
 use space::parallel::Workers;
@@ -35,6 +36,8 @@ pub struct Group<R: Scalar, const D: usize> {
     pub(crate) kernel: Box<dyn Kernel<R, D>>,
     pub(crate) contact: Contact,
     pub(crate) radius: R,
+    /// Half the length of a body's axis; 0 where they are round.
+    pub(crate) half: R,
     /// Whether its bodies meet others.
     pub(crate) meets: bool,
     /// Whether a refused move leaves no velocity.
@@ -92,7 +95,9 @@ pub struct World<R: Scalar, const D: usize> {
     /// Rows by id, where rows are sorted and somebody needs it.
     pub(crate) rows: Vec<u32>,
     pub(crate) needs_rows: bool,
-    pub(crate) bodies: Vec<(u32, R)>,
+    pub(crate) bodies: Vec<Body<R>>,
+    /// The longest half axis of a body; 0 where all are round.
+    pub(crate) longest: R,
     /// Whether members may be unequally fast.
     pub(crate) uneven: bool,
     pub(crate) driver: Driver,
@@ -142,6 +147,10 @@ impl<R: Scalar, const D: usize> Group<R, D> {
     /// Radius of its bodies.
     pub fn radius(&self) -> R {
         self.radius
+    }
+    /// From the centre of a body to the end of its axis; 0 where bodies are round.
+    pub fn half_axis(&self) -> R {
+        self.half
     }
 }
 
@@ -203,12 +212,20 @@ where
         let adapting = plan.groups.iter().filter_map(|group| group.adapt.as_ref()?.obstacle);
         let reaches = prepared.iter().flat_map(|(laws, ..)| laws.iter().filter_map(|law| law.obstacle_reach));
         let obstacle_reach = reaches.chain(adapting).fold(R::ZERO, Real::most);
+        let halves: Vec<R> = plan
+            .groups
+            .iter()
+            .zip(&prepared)
+            .map(|(group, (laws, ..))| half_axis(group, &laws[0]))
+            .collect::<Result<_, _>>()?;
+        let longest = halves.iter().copied().fold(R::ZERO, R::most);
+        let elongated = longest > R::ZERO;
         let (mut groups, mut bodies) = (Vec::new(), Vec::new());
         let mut first = 0u32;
         let (mut identity, mut guarded) = (false, true);
         let mut reach: Option<Reach<R>> = None;
         let (mut headings, mut uneven) = (false, false);
-        for (group, (laws, own, body)) in plan.groups.iter().zip(prepared) {
+        for ((group, (laws, own, body)), half) in plan.groups.iter().zip(prepared).zip(halves) {
             let mut kernels = Vec::new();
             let mut speeds = laws.iter().flat_map(|law| &law.initial_speeds);
             let first_speed = speeds.next();
@@ -250,6 +267,14 @@ where
                 let mut needs = model.needs;
                 needs.identity |= sets.iter().any(|s| s.perception.identifies());
                 match &mut sensing {
+                    Sensing::Ideal(ideal) if elongated && ideal.occlusion != Occlusion::None => {
+                        let problem = "occlusion takes bodies for round; leave it out, or `length`";
+                        return Err(in_group(group, problem.into()));
+                    }
+                    Sensing::Scanner(_) if elongated => {
+                        let problem = "what a scanner finds is taken for round; leave `length` out, or sense ideally";
+                        return Err(in_group(group, problem.into()));
+                    }
                     Sensing::Ideal(ideal) => ideal.check().map_err(|problem| in_group(group, problem))?,
                     Sensing::Scanner(robot) => {
                         refuse_what_a_scanner_cannot_give(group, needs, robot.association.is_some(), D)?;
@@ -298,7 +323,7 @@ where
                 let adapts = adapts.transpose().map_err(refused)?;
                 identity |= conduct.is_some() || pace.is_some() || adapts.is_some();
                 guarded &= model.guarded;
-                let perfect = matches!(&sensing, Sensing::Ideal(ideal) if ideal.is_perfect());
+                let perfect = !elongated && matches!(&sensing, Sensing::Ideal(ideal) if ideal.is_perfect());
                 let stages = Stages {
                     rings: if perfect { Rings::of(&sets) } else { None },
                     first,
@@ -319,6 +344,8 @@ where
                     noise: group.noise,
                     dt,
                     radius,
+                    half,
+                    elongated,
                     plain: group.mobility == Mobility::Ideal
                         && group.conduct.is_none()
                         && group.taxis.is_none()
@@ -337,13 +364,14 @@ where
                 kernel,
                 contact,
                 radius,
+                half,
                 meets,
                 steps,
             });
-            bodies.push((first, radius));
+            bodies.push(Body { first, radius, half });
             first += group.count as u32;
         }
-        let farthest = bodies.iter().fold(obstacle_reach, |far, &(_, radius)| far.most(radius));
+        let farthest = bodies.iter().fold(obstacle_reach, |far, body| far.most(body.radius)) + longest;
         let periods = plan.space.periods();
         let margin = if farthest > R::ZERO && !plan.obstacles.is_empty() { farthest } else { R::TINY };
         let obstacles = Obstacles::new(plan.obstacles.clone(), periods, margin)
@@ -401,6 +429,7 @@ where
             live: None,
             rows: Vec::new(),
             bodies,
+            longest,
             driver: plan.driver,
             dt,
             clocks: Clocks { due: Vec::new(), decisions: Vec::new(), command: Vec::new(), history: Default::default() },
@@ -630,6 +659,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
             mortality: self.resources.as_ref().and_then(Resources::mortality),
             rows: if self.rows.is_empty() { None } else { Some(&self.rows) },
             bodies: &self.bodies,
+            longest: self.longest,
             uneven: self.uneven,
             seed: self.seed,
             step: self.step,
@@ -929,6 +959,33 @@ fn check_world<R: Scalar, const D: usize>(plan: &WorldPlan<R, D>) -> Result<(), 
         }
     }
     Ok(())
+}
+
+/// Half the length of the axis of a group's bodies.
+fn half_axis<R: Scalar, const D: usize>(group: &GroupPlan<R, D>, law: &Prepared<R, D>) -> Result<R, WorldError> {
+    let Some(length) = group.length else { return Ok(R::ZERO) };
+    let radius = group.radius.unwrap_or(law.body_radius);
+    let wrong = |problem| Err(in_group(group, problem));
+    let (round, most) = (radius + radius, capsule::longest(radius));
+    if !(length >= round && length <= most) || radius <= R::ZERO {
+        return wrong(format!(
+            "length: an elongated body has a radius and is from twice to {} times as long as that, here from {round} to {most}; found {length}",
+            most / radius.most(R::TINY)
+        ));
+    }
+    let contact = group.contact.unwrap_or(law.contact);
+    if matches!(contact, Contact::Reflect | Contact::Clamp) {
+        return wrong(
+            "length: elongated bodies are neither reflected nor clamped; contact: refuse, slide or free".into(),
+        );
+    }
+    if law.velocity_is_step && contact == Contact::Refuse {
+        return wrong(
+            "length: with this model a refused move leaves no heading, along which a body could lie; contact: slide or free"
+                .into(),
+        );
+    }
+    Ok(capsule::half_axis(length, radius))
 }
 
 fn chosen_sets<R: Scalar, const D: usize>(

@@ -11,6 +11,7 @@ use crate::parameters::Scalar;
 use crate::selection::{NamedSet, Perception};
 use crate::sensing::cos_half;
 use crate::{choice, parameters};
+use core::marker::PhantomData;
 use space::angles::{arc_tangent, sine_cosine, wrapped};
 use space::lanes::{Lanes, Mask, Task, level, reciprocal_root, with_lanes};
 use space::random::{Purpose, Stream as DrawStream};
@@ -310,7 +311,18 @@ impl Sight<'_> {
     /// Members of a named set in so many blocks.
     #[inline(always)]
     fn count(self, set: usize, blocks: usize) -> u32 {
-        (0..blocks).map(|block| self.members(set, block).count_ones()).sum()
+        // no closures: they would be compiled for processors that cannot count bits; and four blocks at a time
+        let mut count = 0;
+        let (fours, rest) = self.0[set][..blocks].as_chunks();
+        for &[a, b, c, d] in fours {
+            let together = u64::from(a) | u64::from(b) << 16 | u64::from(c) << 32 | u64::from(d) << 48;
+            count += together.count_ones();
+        }
+        let mut last = 0;
+        for &members in rest {
+            last = last << 16 | u64::from(members);
+        }
+        count + last.count_ones()
     }
 }
 
@@ -447,6 +459,23 @@ trait Term<R: Scalar> {
     fn of(seen: &Percepts<'_, R, 3>, k: usize) -> Vector<R, 3>;
     /// The sum over a whole set.
     fn sum(seen: &Percepts<'_, R, 3>, sight: Sight<'_>, set: usize) -> Vector<R, 3>;
+    /// The sum over those of a short list, in its order, whose bits are set.
+    #[inline(always)]
+    fn sum_listed<L: Lanes<R>>(seen: &Percepts<'_, R, 3>, list: &Listed<R>, mut bits: u32) -> Vector<R, 3> {
+        let mut sum = Vector::ZERO;
+        while bits != 0 {
+            sum += Self::of(seen, list.kept[bits.trailing_zeros() as usize] as usize);
+            bits &= bits - 1;
+        }
+        sum
+    }
+}
+
+/// Up to [`KEPT`] percepts side by side. Behind them, nobody is infinitely far away.
+struct Listed<R> {
+    kept: [u32; KEPT],
+    offset: [[R; KEPT]; 3],
+    squared: [R; KEPT],
 }
 
 /// Velocities, in place of headings: all are equally fast.
@@ -486,6 +515,27 @@ impl<R: Scalar> Term<R> for Directions {
     #[inline(always)]
     fn sum(seen: &Percepts<'_, R, 3>, sight: Sight<'_>, set: usize) -> Vector<R, 3> {
         with_lanes(level(), SumOfDirections { seen, sight, set })
+    }
+    #[inline(always)]
+    fn sum_listed<L: Lanes<R>>(_: &Percepts<'_, R, 3>, list: &Listed<R>, mut bits: u32) -> Vector<R, 3> {
+        let mut units = [[R::ZERO; KEPT]; 3];
+        for part in (0..KEPT).step_by(L::WIDTH) {
+            if bits >> part == 0 {
+                break;
+            }
+            let offset = list.offset.each_ref().map(|offset| L::load(&offset[part..]));
+            let unit = towards(&offset, L::load(&list.squared[part..]));
+            for a in 0..3 {
+                unit[a].store(&mut units[a][part..]);
+            }
+        }
+        let mut sum = Vector::ZERO;
+        while bits != 0 {
+            let n = bits.trailing_zeros() as usize % KEPT;
+            sum += Vector([units[0][n], units[1][n], units[2][n]]);
+            bits &= bits - 1;
+        }
+        sum
     }
 }
 
@@ -674,23 +724,30 @@ fn in_order<R: Scalar, L: Lanes<R>>(numbers: &[L; KEPT], count: usize) -> R {
     }
     // how many of them each does not fall short of
     let (one, enough) = (L::splat(R::ONE), L::splat(R::count(count)));
-    let mut ranks = [L::splat(R::ZERO); KEPT];
-    for number in each {
-        let number = L::splat(number);
-        for part in 0..KEPT / L::WIDTH {
-            ranks[part] = ranks[part].add_where(number.less_equal(numbers[part]), one);
+    // in four sums that need not wait for each other
+    let mut ranks = [[L::splat(R::ZERO); KEPT]; 4];
+    for first in (0..KEPT).step_by(4) {
+        for (n, ranks) in ranks.iter_mut().enumerate() {
+            let number = L::splat(each[first + n]);
+            for part in 0..KEPT / L::WIDTH {
+                ranks[part] = ranks[part].add_where(number.less_equal(numbers[part]), one);
+            }
         }
     }
     let mut bound = L::splat(R::INFINITY);
     for part in 0..KEPT / L::WIDTH {
-        bound = L::choose(enough.less_equal(ranks[part]), bound.lesser(numbers[part]), bound);
+        let rank = (ranks[0][part] + ranks[1][part]) + (ranks[2][part] + ranks[3][part]);
+        bound = L::choose(enough.less_equal(rank), bound.lesser(numbers[part]), bound);
     }
     bound.store(&mut each);
-    let mut least = each[0];
-    for lane in 1..L::WIDTH {
-        least = least.least(each[lane]);
+    let mut half = L::WIDTH / 2;
+    while half > 0 {
+        for lane in 0..half {
+            each[lane] = each[lane].least(each[lane + half]);
+        }
+        half /= 2;
     }
-    least
+    each[0]
 }
 
 /// Some members of a set, all of the nearest `considered` among them, by what is roughly known of their distances; none where
@@ -738,6 +795,52 @@ impl Task<f32> for NearestRoughly<'_> {
     }
 }
 
+/// The sum over the nearest `considered` of a short list of percepts; ties go to the first.
+struct SumOfListed<'a, R, T> {
+    seen: &'a Percepts<'a, R, 3>,
+    kept: [u32; KEPT],
+    listed: usize,
+    considered: usize,
+    term: PhantomData<T>,
+}
+
+impl<R: Scalar, T: Term<R>> Task<R> for SumOfListed<'_, R, T> {
+    type Output = Vector<R, 3>;
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) -> Vector<R, 3> {
+        let Self { seen, kept, listed, considered, .. } = self;
+        let mut list = Listed { kept, offset: [[R::ZERO; KEPT]; 3], squared: [R::INFINITY; KEPT] };
+        for n in 0..listed.min(KEPT) {
+            let (offset, squared) = seen.at(kept[n] as usize);
+            for a in 0..3 {
+                list.offset[a][n] = offset[a];
+            }
+            list.squared[n] = squared;
+        }
+        let mut nearest = mask_of(listed);
+        if listed > considered {
+            let (one, enough) = (L::splat(R::ONE), L::splat(R::count(considered)));
+            let mut left = 0;
+            for part in (0..KEPT).step_by(L::WIDTH) {
+                if part >= listed {
+                    break;
+                }
+                // how many are before each: nearer, or as near and before it in the list
+                let mine = L::load(&list.squared[part..]);
+                let mut before = L::splat(R::ZERO);
+                for n in 0..listed.min(KEPT) {
+                    let other = L::splat(list.squared[n]);
+                    let behind = L::Mask::from_bits((!mask_of(n + 1) & mask_of(KEPT)) >> part);
+                    before = before.add_where(other.less(mine).or(other.less_equal(mine).and(behind)), one);
+                }
+                left |= before.less(enough).bits() << part;
+            }
+            nearest &= left;
+        }
+        T::sum_listed::<L>(seen, &list, nearest)
+    }
+}
+
 /// How far a number has risen from `low` to `high`, 0 to 1; half where both are that number.
 fn rising(number: f64, low: f64, high: f64) -> f64 {
     if low < high {
@@ -751,27 +854,6 @@ fn rising(number: f64, low: f64, high: f64) -> f64 {
 }
 
 impl<R: Scalar> BehaviourSelection<R> {
-    /// The nearest `considered` of so many percepts in their order, as bits; ties go to the first.
-    #[inline(always)]
-    fn nearest_of(seen: &Percepts<'_, R, 3>, listed: &[u32], considered: usize) -> u32 {
-        let mut left = mask_of(listed.len());
-        if listed.len() > considered {
-            let mut squares = [R::ZERO; KEPT];
-            for (squared, &k) in squares.iter_mut().zip(listed) {
-                *squared = seen.at(k as usize).1;
-            }
-            for _ in considered..listed.len() {
-                let (mut farthest, mut far) = (0, -R::ONE);
-                for l in 0..listed.len() {
-                    let farther = left >> l & 1 == 1 && squares[l] >= far;
-                    farthest = if farther { l } else { farthest };
-                    far = if farther { squares[l] } else { far };
-                }
-                left &= !(1 << farthest);
-            }
-        }
-        left
-    }
     /// Bounds of the zones, from centre to centre.
     #[inline(always)]
     fn bounds(&self) -> [R; 3] {
@@ -919,12 +1001,7 @@ impl<R: Scalar> BehaviourSelection<R> {
             let blocks = seen.blocks();
             let roughly = NearestRoughly { squared, margin, blocks, sight, set, considered };
             if let Some((kept, listed)) = with_lanes::<f32, _>(level(), roughly) {
-                let mut left = Self::nearest_of(seen, &kept[..listed], considered);
-                while left != 0 {
-                    sum += T::of(seen, kept[left.trailing_zeros() as usize] as usize);
-                    left &= left - 1;
-                }
-                return sum;
+                return with_lanes(level(), SumOfListed { seen, kept, listed, considered, term: PhantomData::<T> });
             }
         }
         if considered <= KEPT
@@ -994,7 +1071,8 @@ impl<R: Scalar> BehaviourSelection<R> {
     #[inline(always)]
     fn wished(&self, me: &mut Me<'_, R, 3>, seen: &Percepts<'_, R, 3>, sight: Sight<'_>, draws: &Draws<'_>) -> Wish<R> {
         let (theta, phi) = (me.own[THETA], me.own[PHI]);
-        let counts = [AVOIDANCE, ALIGNMENT, ATTRACTION].map(|set| sight.count(set, seen.blocks()));
+        let blocks = seen.blocks();
+        let counts = [sight.count(AVOIDANCE, blocks), sight.count(ALIGNMENT, blocks), sight.count(ATTRACTION, blocks)];
         let (mut away, mut obstacles) = (Vector::<R, 3>::ZERO, 0u32);
         for obstacle in me.around.obstacles {
             if !self.obstacle_blind || self.sees(me.heading(), (theta, phi), -obstacle.away) {
@@ -1011,12 +1089,14 @@ impl<R: Scalar> BehaviourSelection<R> {
             (0, 0, _) => Behaviour::Attract,
             (0, ..) if self.variant == Variant::Control => Behaviour::Average,
             (0, aligning, _) => {
-                let choice = draws.number::<f64>("choice", 1.0, |s| s.uniform(0));
                 let probability = if self.errs() {
                     self.mistaken(b, aligning, draws)
                 } else {
                     self.probability(b, f64::from(aligning))
                 };
+                // what is certain needs no draw, but where it is to be told
+                let certain = probability >= 1.0 && draws.drawn() && me.trace.is_none();
+                let choice = if certain { 0.0 } else { draws.number::<f64>("choice", 1.0, |s| s.uniform(0)) };
                 drawn = Some((choice, probability));
                 if choice < probability { Behaviour::Align } else { Behaviour::Attract }
             }

@@ -2,6 +2,7 @@
 //!
 //! [`Mobility`] is what a body can do by itself; [`Contact`] is what happens where the way is not free.
 
+pub mod capsule;
 mod contact;
 mod mobility;
 
