@@ -503,6 +503,52 @@ fn schema_metrics_completions_and_man_pages() {
 }
 
 #[test]
+fn the_page_shows_how_a_turn_passes_where_members_meet_an_obstacle() {
+    let folder = fresh("turns");
+    run(&study("behaviour-selection/obstacle.toml"), &folder, &["--set", "time.duration=12"]);
+    let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    assert!(page.contains("Change of heading of every member"));
+    let told: u32 = page
+        .split_once("Member ")
+        .and_then(|(_, rest)| rest.split_once(" is the first that has an obstacle"))
+        .map(|(id, _)| id.parse().unwrap())
+        .unwrap();
+    // who it is according to the table
+    assert!(ran(&["export", folder.to_str().unwrap(), "--to", "csv"]).status.success());
+    let table = std::fs::read_to_string(folder.join("trajectory.csv")).unwrap();
+    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<&str>>());
+    let names = rows.next().unwrap();
+    let column = |name: &str| names.iter().position(|other| *other == name).unwrap();
+    let (id, met) = (column("id"), column("o_avoid"));
+    let first = rows.find(|row| row[met].parse::<f64>().unwrap() > 0.0).unwrap();
+    assert_eq!(first[id].parse::<u32>().unwrap(), told);
+    // where nothing stands in the way, there is no such figure
+    let folder = fresh("no_turns");
+    run(&study("gallery/tank.toml"), &folder, &["--set", "time.duration=5"]);
+    assert!(
+        !std::fs::read_to_string(folder.join("report.html")).unwrap().contains("Change of heading of every member")
+    );
+}
+
+#[test]
+fn bodies_of_any_scenario_may_be_elongated() {
+    let file = study("gallery/tank.toml");
+    let made = |name: &str, more: &[&str]| {
+        let folder = fresh(name);
+        run(&file, &folder, &[&["--seed", "4", "--set", "time.duration=20"], more].concat());
+        results(&folder)
+    };
+    let long = ["--set", "group.fish.physics.length=8"];
+    let one = made("elongated_1", &[&long[..], &["--threads", "1"]].concat());
+    assert!(one == made("elongated_2", &[&long[..], &["--threads", "2"]].concat()), "threads change bytes");
+    assert!(one != made("round", &[]), "long bodies are like round ones");
+    let wrong = ran(&["check", &file, "--set", "group.fish.physics.length=1"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    let told = text(&wrong.stderr);
+    assert!(told.contains("from 2 to 66; found 1") && told.contains("[group.fish]"), "{told}");
+}
+
+#[test]
 fn recording_changes_no_result() {
     let file = study("gallery/mill.toml");
     let (much, little) = (fresh("record-much"), fresh("record-little"));
