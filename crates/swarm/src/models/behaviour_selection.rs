@@ -11,6 +11,7 @@ use crate::parameters::Scalar;
 use crate::selection::{NamedSet, Perception};
 use crate::sensing::cos_half;
 use crate::{choice, parameters};
+use core::cmp::Ordering;
 use core::marker::PhantomData;
 use space::angles::{arc_tangent, sine_cosine, wrapped};
 use space::lanes::{Lanes, Mask, Task, level, reciprocal_root, with_lanes};
@@ -615,11 +616,10 @@ impl<R: Scalar> Task<R> for SumOfDirections<'_, R> {
     }
 }
 
-/// Whether percept `a` is nearer than `b`; ties go to the lower id.
-#[inline(always)]
-fn before<R: Scalar>(seen: &Percepts<'_, R, 3>, a: usize, b: usize) -> bool {
-    let (near, far) = (seen.at(a).1, seen.at(b).1);
-    near < far || (near == far && seen.id(a) < seen.id(b))
+/// The order of two by their squared distances; ties go to the lower id.
+#[inline]
+fn nearer_first<R: Scalar>(a: &(R, u32, usize), b: &(R, u32, usize)) -> Ordering {
+    a.0.partial_cmp(&b.0).unwrap_or(Ordering::Equal).then(a.1.cmp(&b.1))
 }
 
 /// The nearest `considered` of a set that has more members, in their order; none where that takes more than [`KEPT`] to tell.
@@ -1012,18 +1012,21 @@ impl<R: Scalar> BehaviourSelection<R> {
             }
             return sum;
         }
-        // too many to list, or ties: whoever has fewer nearer ones than that
+        // too many to list, or ties
+        let mut members = Vec::with_capacity(count);
         for block in 0..seen.blocks() {
-            for l in (0..BLOCK).filter(|l| sight.members(set, block) >> l & 1 == 1) {
-                let k = block * BLOCK + l;
-                let nearer = |other: usize| {
-                    (0..BLOCK)
-                        .filter(|l| sight.members(set, other) >> l & 1 == 1 && before(seen, other * BLOCK + l, k))
-                        .count()
-                };
-                if (0..seen.blocks()).map(nearer).sum::<usize>() < considered {
-                    sum += T::of(seen, k);
-                }
+            let mut bits = sight.members(set, block);
+            while bits != 0 {
+                let k = block * BLOCK + bits.trailing_zeros() as usize;
+                members.push((seen.at(k).1, seen.id(k), k));
+                bits &= bits - 1;
+            }
+        }
+        let mut ranked = members.clone();
+        let last = *ranked.select_nth_unstable_by(considered - 1, nearer_first).1;
+        for member in members {
+            if nearer_first(&member, &last).is_le() {
+                sum += T::of(seen, member.2);
             }
         }
         sum
