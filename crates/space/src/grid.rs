@@ -94,11 +94,17 @@ impl<R: Real, const D: usize> Layout<R, D> {
     }
     #[inline(always)]
     fn cell(&self, position: Vector<R, D>) -> usize {
-        let mut cell = 0;
-        for a in (0..D).rev() {
-            cell = cell * self.cells[a] + self.coordinate(a, position.0[a]);
+        let (line, along) = self.line_and_cell(position);
+        line * self.cells[0] + along
+    }
+    /// The line of cells in which a place lies, and the cell in it.
+    #[inline(always)]
+    fn line_and_cell(&self, position: Vector<R, D>) -> (usize, usize) {
+        let mut line = 0;
+        for a in (1..D).rev() {
+            line = line * self.cells[a] + self.coordinate(a, position.0[a]);
         }
-        cell
+        (line, self.coordinate(0, position.0[0]))
     }
     /// The lines of cells around a place, in canonical order, with their shift.
     #[inline(always)]
@@ -522,6 +528,8 @@ pub struct LiveGrid<R, const D: usize> {
     reach: R,
     lines: Vec<Line<R, D>>,
     cell_of: Vec<u32>,
+    /// Where each row stands in its line.
+    place_of: Vec<u32>,
     /// The runs of cells around each cell, for the grid's own reach: `around[first[c]..first[c + 1]]`.
     around: Vec<Run<R, D>>,
     first: Vec<u32>,
@@ -573,21 +581,30 @@ impl<R: Real, const D: usize> Line<R, D> {
         let (first, end) = (self.first[cell] as usize, self.first[cell + 1] as usize);
         first + self.rows[first..end].partition_point(|&other| other < row)
     }
-    fn insert(&mut self, cell: usize, row: u32, place: Vector<R, D>) {
+    /// Tells the rows from a place on where they are now.
+    fn tell(&self, from: usize, place_of: &mut [u32]) {
+        let count = self.first[self.first.len() - 1] as usize;
+        for (at, &row) in self.rows[..count].iter().enumerate().skip(from) {
+            place_of[row as usize] = at as u32;
+        }
+    }
+    fn insert(&mut self, cell: usize, row: u32, place: Vector<R, D>, place_of: &mut [u32]) {
         let at = self.find(cell, row);
         self.rows.insert(at, row);
         for a in 0..D {
             self.position[a].insert(at, place.0[a]);
         }
         self.first[cell + 1..].iter_mut().for_each(|first| *first += 1);
+        self.tell(at, place_of);
     }
-    fn remove(&mut self, cell: usize, row: u32) {
+    fn remove(&mut self, cell: usize, row: u32, place_of: &mut [u32]) {
         let at = self.find(cell, row);
         self.rows.remove(at);
         for a in 0..D {
             self.position[a].remove(at);
         }
         self.first[cell + 1..].iter_mut().for_each(|first| *first -= 1);
+        self.tell(at, place_of);
     }
 }
 
@@ -603,13 +620,14 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
             reach,
             lines: vec![Line::empty(width); layout.total() / width],
             cell_of: Vec::new(),
+            place_of: vec![0; columns.len()],
             around: Vec::new(),
             first: vec![0],
         };
         for row in 0..columns.len() {
             let cell = layout.cell(columns.position(row));
             grid.cell_of.push(cell as u32);
-            grid.lines[cell / width].insert(cell % width, row as u32, columns.position(row));
+            grid.lines[cell / width].insert(cell % width, row as u32, columns.position(row), &mut grid.place_of);
         }
         for cell in 0..layout.total() {
             let mut centre = [0; D];
@@ -629,17 +647,19 @@ impl<R: Real, const D: usize> LiveGrid<R, D> {
     /// Follows a row to its new place.
     #[inline]
     pub fn follow(&mut self, row: usize, place: Vector<R, D>) {
-        let (old, new) = (self.cell_of[row] as usize, self.layout.cell(place));
+        let (line, along) = self.layout.line_and_cell(place);
         let width = self.layout.cells[0];
+        let (old, new) = (self.cell_of[row] as usize, line * width + along);
+        let line = &mut self.lines[line];
         if old == new {
-            let line = &mut self.lines[new / width];
-            let at = line.find(new % width, row as u32);
+            let at = self.place_of[row] as usize;
             for a in 0..D {
                 line.position[a][at] = place.0[a];
             }
         } else {
-            self.lines[old / width].remove(old % width, row as u32);
-            self.lines[new / width].insert(new % width, row as u32, place);
+            // both may be in one line
+            self.lines[old / width].remove(old % width, row as u32, &mut self.place_of);
+            self.lines[new / width].insert(along, row as u32, place, &mut self.place_of);
             self.cell_of[row] = new as u32;
         }
     }

@@ -129,6 +129,18 @@ pub trait Lanes<R>:
             chosen += (bits >> k & 1) as usize;
         }
     }
+    /// Which of the first `WIDTH` numbers of a slice are a value, as bits.
+    ///
+    /// # Panics
+    /// If the slice is shorter than `WIDTH`.
+    #[inline(always)]
+    fn listed(from: &[u32], value: u32) -> u32 {
+        let mut bits = 0;
+        for (lane, &number) in from[..Self::WIDTH].iter().enumerate() {
+            bits |= u32::from(number == value) << lane;
+        }
+        bits
+    }
     /// [`Self::pack`] of the first `WIDTH` numbers of a slice.
     ///
     /// # Panics
@@ -460,7 +472,7 @@ mod x86 {
          $set1:ident $loadu:ident $storeu:ident $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $abs:ident $min:ident $max:ident, rough $rough:expr,
          less $less:expr, less_equal $less_equal:expr, choose $choose:expr, add_where $add_where:expr,
          and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, from_bits $from_bits:expr
-         $(, pack $pack:expr, pack_numbers $pack_numbers:expr, pack_listed $pack_listed:expr)?) => {
+         $(, pack $pack:expr, pack_numbers $pack_numbers:expr, pack_listed $pack_listed:expr, listed $listed:expr)?) => {
             #[doc = $doc]
             #[derive(Clone, Copy)]
             pub struct $name($inner);
@@ -579,7 +591,7 @@ mod x86 {
                     // SAFETY: the features are present, see above.
                     Self(unsafe { $add_where(self.0, mask.0, other.0) })
                 }
-                vector!(@pack $number $width $($pack, $pack_numbers, $pack_listed)?);
+                vector!(@pack $number $width $($pack, $pack_numbers, $pack_listed, $listed)?);
             }
         };
         (@pack $number:ident $width:literal) => {
@@ -590,7 +602,13 @@ mod x86 {
                 super::pack_array(lanes, bits, to);
             }
         };
-        (@pack $number:ident $width:literal $pack:expr, $pack_numbers:expr, $pack_listed:expr) => {
+        (@pack $number:ident $width:literal $pack:expr, $pack_numbers:expr, $pack_listed:expr, $listed:expr) => {
+            #[inline(always)]
+            fn listed(from: &[u32], value: u32) -> u32 {
+                let from = &from[..$width];
+                // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
+                unsafe { $listed(from.as_ptr(), value) }
+            }
             #[inline(always)]
             fn pack(self, bits: u32, to: &mut [$number]) {
                 let to = &mut to[..$width];
@@ -635,6 +653,16 @@ mod x86 {
                 unsafe { $body }
             }
         };
+        (read $name:ident($($arg:ident: $t:ty),*) -> $out:ty, $feature:literal, $body:expr) => {
+            /// # Safety
+            /// The pointer is good for as many numbers as there are lanes.
+            #[inline]
+            #[target_feature(enable = $feature)]
+            unsafe fn $name($($arg: $t),*) -> $out {
+                // SAFETY: the caller's promise.
+                unsafe { $body }
+            }
+        };
         ($name:ident($($arg:ident: $t:ty),*) -> $out:ty, $feature:literal, $body:expr) => {
             #[inline]
             #[target_feature(enable = $feature)]
@@ -660,6 +688,8 @@ mod x86 {
         let all = _mm512_add_epi32(_mm512_set1_epi32(first as i32), each);
         _mm512_storeu_si512(to.cast(), _mm512_maskz_compress_epi32(bits as __mmask16, all));
     });
+    call!(read listed16(from: *const u32, value: u32) -> u32, "avx512f",
+        u32::from(_mm512_cmpeq_epi32_mask(_mm512_loadu_si512(from.cast()), _mm512_set1_epi32(value as i32))));
     call!(write pack_listed16(from: *const u32, bits: u32, to: *mut u32), "avx512f",
         _mm512_storeu_si512(to.cast(), _mm512_maskz_compress_epi32(bits as __mmask16, _mm512_loadu_si512(from.cast()))));
     call!(rough_f32x16(a: __m512) -> __m512, "avx512f",
@@ -670,7 +700,7 @@ mod x86 {
         rough rough_f32x16,
         less less_f32x16, less_equal less_equal_f32x16, choose choose_f32x16, add_where add_where_f32x16,
         and and16, or or16, not not16, bits bits16, from_bits from_bits16, pack pack_f32x16, pack_numbers pack_numbers16,
-        pack_listed pack_listed16);
+        pack_listed pack_listed16, listed listed16);
 
     call!(less_f64x8(a: __m512d, b: __m512d) -> __mmask8, "avx512f", _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b));
     call!(less_equal_f64x8(a: __m512d, b: __m512d) -> __mmask8, "avx512f", _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b));
@@ -688,6 +718,8 @@ mod x86 {
         let all = _mm256_add_epi32(_mm256_set1_epi32(first as i32), each);
         _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(bits as __mmask8, all));
     });
+    call!(read listed8(from: *const u32, value: u32) -> u32, "avx512f,avx512vl,avx2",
+        u32::from(_mm256_cmpeq_epi32_mask(_mm256_loadu_si256(from.cast()), _mm256_set1_epi32(value as i32))));
     call!(write pack_listed8(from: *const u32, bits: u32, to: *mut u32), "avx512f,avx512vl,avx2",
         _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(bits as __mmask8, _mm256_loadu_si256(from.cast()))));
     call!(rough_f64x8(a: __m512d) -> __m512d, "avx512f,avx2",
@@ -698,7 +730,7 @@ mod x86 {
         rough rough_f64x8,
         less less_f64x8, less_equal less_equal_f64x8, choose choose_f64x8, add_where add_where_f64x8,
         and and8, or or8, not not8, bits bits8, from_bits from_bits8, pack pack_f64x8, pack_numbers pack_numbers8,
-        pack_listed pack_listed8);
+        pack_listed pack_listed8, listed listed8);
 
     call!(less_f32x8(a: __m256, b: __m256) -> __m256, "avx2", _mm256_cmp_ps::<_CMP_LT_OQ>(a, b));
     call!(less_equal_f32x8(a: __m256, b: __m256) -> __m256, "avx2", _mm256_cmp_ps::<_CMP_LE_OQ>(a, b));
@@ -831,6 +863,9 @@ mod tests {
                 for (n, k) in (0..L::WIDTH).filter(|k| bits >> k & 1 == 1).enumerate() {
                     assert_eq!((to[n], numbers[n], listed[n]), (from[k], 100 + k as u32, list[k]));
                 }
+                assert_eq!(L::listed(&list, 1000 - seed), if seed < L::WIDTH as u32 { 1 << seed } else { 0 });
+                // a number may stand there more than once
+                assert_eq!(L::listed(&[seed; 16], seed), (1 << L::WIDTH) - 1);
             }
         }
     }

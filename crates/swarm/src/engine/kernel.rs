@@ -2182,7 +2182,9 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
             scratch.found = found;
             scratch.reserve(members.count);
             let Scratch { row: rows, offset: offsets, squared: squares, .. } = &mut *scratch;
+            // slices of their own, which stay in registers
             let (rows, squares) = (&mut rows[..], &mut squares[..]);
+            let offsets = &mut offsets.each_mut().map(|o| &mut o[..]);
             let shift: [L; D] = splat(run.shift);
             let mut first = 0;
             // at least once, since whether a run is empty cannot be foretold
@@ -2192,8 +2194,11 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
                     offset[a] = (L::load(&members.position[a][first..]) + shift[a]) - place[a];
                 }
                 let squared = crate::motion::dot(&offset, &offset);
-                let bits = squared.less(limit).bits() & mask_of(members.count - first);
-                L::pack_listed(&members.rows[first..], bits, &mut rows[found..]);
+                let several = &members.rows[first..];
+                // all but oneself, here, where it is told for several at once
+                let bits =
+                    squared.less(limit).bits() & mask_of(members.count - first) & !L::listed(several, row as u32);
+                L::pack_listed(several, bits, &mut rows[found..]);
                 for a in 0..D {
                     offset[a].pack(bits, &mut offsets[a][found..]);
                 }
@@ -2205,6 +2210,9 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
                 }
             }
         }
+        scratch.found = found;
+        scratch.bury(view);
+        let found = scratch.found;
         let (rows, squares) = (&scratch.row[..found], &scratch.squared[..found]);
         let offsets = firsts(&scratch.offset, found);
         let velocities = firsts(&view.others.velocity, view.others.len());
@@ -2223,12 +2231,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Task<R> for OneStreamed<'_, '_,
                 others: view.others,
                 columns: &kernel.listed.stages.columns,
             };
-            // no branch: that somebody is oneself cannot be foretold either
-            let met = (j != row) & !view.dead(view.others, j);
-            let mut sets = law.classify::<R>(&me, &to, squares[k], &other);
-            for set in &mut sets {
-                *set &= met;
-            }
+            let sets = law.classify::<R>(&me, &to, squares[k], &other);
             law.gather::<R>(&mut sums, &me, &to, squares[k], &other, &sets);
         }
         scratch.own = own;
