@@ -66,6 +66,13 @@ fn bodies_that_refuse_never_touch_whatever_the_driver() {
             assert!(bodies <= 1e-9, "step {step}: bodies overlap by {bodies}");
             // between two points of an axis, half a radius apart, a ball may reach in by a hair
             assert!(environment <= 1e-9, "step {step}: {environment} deep in a wall or the obstacle");
+            for id in 0..100 {
+                // a law that keeps its own heading is told of a turn that was refused
+                let [theta, phi] = ["theta", "phi"].map(|name| world.state(id, name).unwrap());
+                let heading = Vector([phi.cos() * theta.cos(), phi.cos() * theta.sin(), phi.sin()]);
+                let apart = (heading * 6.0 - world.velocity(id)).length();
+                assert!(apart < 1e-9, "step {step}: {id} moves otherwise than it keeps in mind, by {apart}");
+            }
             refused += (0..100).map(|id| world.state(id, "collided").unwrap()).sum::<f64>();
         }
         assert!(refused > 100.0, "{refused} moves were refused: nobody was near anybody");

@@ -140,9 +140,9 @@ impl<R: Scalar, const D: usize> Group<R, D> {
     pub fn contact(&self) -> Contact {
         self.contact
     }
-    /// Whether a surface turns its bodies round.
+    /// Whether contact may leave its bodies another heading than they wanted: a surface turns them round, or their turn is refused.
     pub(crate) fn turns(&self) -> bool {
-        matches!(self.contact, Contact::Reflect | Contact::Clamp)
+        matches!(self.contact, Contact::Reflect | Contact::Clamp) || self.half > R::ZERO
     }
     /// Radius of its bodies.
     pub fn radius(&self) -> R {
