@@ -471,8 +471,8 @@ mod x86 {
         ($doc:literal $name:ident $mask_name:ident $number:ident $width:literal $inner:ty, $mask:ty,
          $set1:ident $loadu:ident $storeu:ident $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $abs:ident $min:ident $max:ident, rough $rough:expr,
          less $less:expr, less_equal $less_equal:expr, choose $choose:expr, add_where $add_where:expr,
-         and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, from_bits $from_bits:expr
-         $(, pack $pack:expr, pack_numbers $pack_numbers:expr, pack_listed $pack_listed:expr, listed $listed:expr)?) => {
+         and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, from_bits $from_bits:expr,
+         pack $pack:expr, pack_numbers $pack_numbers:expr, pack_listed $pack_listed:expr, listed $listed:expr) => {
             #[doc = $doc]
             #[derive(Clone, Copy)]
             pub struct $name($inner);
@@ -591,41 +591,30 @@ mod x86 {
                     // SAFETY: the features are present, see above.
                     Self(unsafe { $add_where(self.0, mask.0, other.0) })
                 }
-                vector!(@pack $number $width $($pack, $pack_numbers, $pack_listed, $listed)?);
-            }
-        };
-        (@pack $number:ident $width:literal) => {
-            #[inline(always)]
-            fn pack(self, bits: u32, to: &mut [$number]) {
-                let mut lanes = [0.0; $width];
-                self.store(&mut lanes);
-                super::pack_array(lanes, bits, to);
-            }
-        };
-        (@pack $number:ident $width:literal $pack:expr, $pack_numbers:expr, $pack_listed:expr, $listed:expr) => {
-            #[inline(always)]
-            fn listed(from: &[u32], value: u32) -> u32 {
-                let from = &from[..$width];
-                // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
-                unsafe { $listed(from.as_ptr(), value) }
-            }
-            #[inline(always)]
-            fn pack(self, bits: u32, to: &mut [$number]) {
-                let to = &mut to[..$width];
-                // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
-                unsafe { $pack(self.0, bits, to.as_mut_ptr()) }
-            }
-            #[inline(always)]
-            fn pack_numbers(first: u32, bits: u32, to: &mut [u32]) {
-                let to = &mut to[..$width];
-                // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
-                unsafe { $pack_numbers(first, bits, to.as_mut_ptr()) }
-            }
-            #[inline(always)]
-            fn pack_listed(from: &[u32], bits: u32, to: &mut [u32]) {
-                let (from, to) = (&from[..$width], &mut to[..$width]);
-                // SAFETY: both slices hold WIDTH numbers; the features are present, see above.
-                unsafe { $pack_listed(from.as_ptr(), bits, to.as_mut_ptr()) }
+                #[inline(always)]
+                fn listed(from: &[u32], value: u32) -> u32 {
+                    let from = &from[..$width];
+                    // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
+                    unsafe { $listed(from.as_ptr(), value) }
+                }
+                #[inline(always)]
+                fn pack(self, bits: u32, to: &mut [$number]) {
+                    let to = &mut to[..$width];
+                    // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
+                    unsafe { $pack(self.0, bits, to.as_mut_ptr()) }
+                }
+                #[inline(always)]
+                fn pack_numbers(first: u32, bits: u32, to: &mut [u32]) {
+                    let to = &mut to[..$width];
+                    // SAFETY: the slice holds WIDTH numbers; the features are present, see above.
+                    unsafe { $pack_numbers(first, bits, to.as_mut_ptr()) }
+                }
+                #[inline(always)]
+                fn pack_listed(from: &[u32], bits: u32, to: &mut [u32]) {
+                    let (from, to) = (&from[..$width], &mut to[..$width]);
+                    // SAFETY: both slices hold WIDTH numbers; the features are present, see above.
+                    unsafe { $pack_listed(from.as_ptr(), bits, to.as_mut_ptr()) }
+                }
             }
         };
         (@op $name:ident $trait:ident $method:ident $intrinsic:ident) => {
@@ -668,6 +657,40 @@ mod x86 {
             #[target_feature(enable = $feature)]
             fn $name($($arg: $t),*) -> $out {
                 $body
+            }
+        };
+    }
+
+    /// A comparison that the compiler does not look into: where it knows that lanes are all ones or nothing, it keeps truth
+    /// values as bytes of 0 and 1 and makes masks of them again for every use, which takes longer than what is done with them.
+    macro_rules! compare {
+        ($name:ident $vector:ty, $instruction:literal) => {
+            #[inline]
+            #[target_feature(enable = "avx2")]
+            fn $name(a: $vector, b: $vector) -> $vector {
+                let mask: $vector;
+                // SAFETY: the instruction reads and writes these registers only.
+                unsafe {
+                    core::arch::asm!($instruction, a = in(ymm_reg) a, b = in(ymm_reg) b, mask = lateout(ymm_reg) mask,
+                        options(pure, nomem, nostack, preserves_flags));
+                }
+                mask
+            }
+        };
+    }
+    /// The signs of all lanes; not left to the compiler either, which puts several of them together by way of bytes.
+    macro_rules! signs {
+        ($name:ident $vector:ty, $instruction:literal) => {
+            #[inline]
+            #[target_feature(enable = "avx2")]
+            fn $name(a: $vector) -> u32 {
+                let bits: u32;
+                // SAFETY: the instruction reads and writes these registers only.
+                unsafe {
+                    core::arch::asm!($instruction, a = in(ymm_reg) a, bits = lateout(reg) bits,
+                        options(pure, nomem, nostack, preserves_flags));
+                }
+                bits
             }
         };
     }
@@ -732,13 +755,52 @@ mod x86 {
         and and8, or or8, not not8, bits bits8, from_bits from_bits8, pack pack_f64x8, pack_numbers pack_numbers8,
         pack_listed pack_listed8, listed listed8);
 
-    call!(less_f32x8(a: __m256, b: __m256) -> __m256, "avx2", _mm256_cmp_ps::<_CMP_LT_OQ>(a, b));
-    call!(less_equal_f32x8(a: __m256, b: __m256) -> __m256, "avx2", _mm256_cmp_ps::<_CMP_LE_OQ>(a, b));
+    /// Which lanes are set, the lowest first, for each set of eight lanes.
+    const SET: [[u8; 8]; 256] = set_lanes(1);
+    /// The halves of the lanes that are set, for each set of four lanes.
+    const SET_HALVES: [[u8; 8]; 16] = set_lanes(2);
+
+    /// The parts of the lanes that are set, in order.
+    const fn set_lanes<const SETS: usize>(parts: usize) -> [[u8; 8]; SETS] {
+        let mut all = [[0; 8]; SETS];
+        let mut bits = 0;
+        while bits < SETS {
+            let (mut part, mut chosen) = (0, 0);
+            while part < 8 {
+                if bits >> (part / parts) & 1 == 1 {
+                    all[bits][chosen] = part as u8;
+                    chosen += 1;
+                }
+                part += 1;
+            }
+            bits += 1;
+        }
+        all
+    }
+
+    call!(order8(order: &[u8; 8]) -> __m256i, "avx2",
+        _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(i64::from_le_bytes(*order))));
+    call!(order4(order: &[u8; 8]) -> __m128i, "avx2", _mm_cvtepu8_epi32(_mm_cvtsi64_si128(i64::from_le_bytes(*order))));
+
+    compare!(less_f32x8 __m256, "vcmplt_oqps {mask}, {a}, {b}");
+    compare!(less_equal_f32x8 __m256, "vcmple_oqps {mask}, {a}, {b}");
+    call!(write pack_f32x8(v: __m256, bits: u32, to: *mut f32), "avx2",
+        _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(v, order8(&SET[bits as usize & 255]))));
+    call!(write pack_numbers_avx8(first: u32, bits: u32, to: *mut u32), "avx2",
+        _mm256_storeu_si256(to.cast(), _mm256_add_epi32(_mm256_set1_epi32(first as i32), order8(&SET[bits as usize & 255]))));
+    call!(write pack_listed_avx8(from: *const u32, bits: u32, to: *mut u32), "avx2", {
+        let all = _mm256_loadu_si256(from.cast());
+        _mm256_storeu_si256(to.cast(), _mm256_permutevar8x32_epi32(all, order8(&SET[bits as usize & 255])));
+    });
+    call!(read listed_avx8(from: *const u32, value: u32) -> u32, "avx2", {
+        let equal = _mm256_cmpeq_epi32(_mm256_loadu_si256(from.cast()), _mm256_set1_epi32(value as i32));
+        _mm256_movemask_ps(_mm256_castsi256_ps(equal)) as u32
+    });
     call!(choose_f32x8(m: __m256, y: __m256, n: __m256) -> __m256, "avx2", _mm256_blendv_ps(n, y, m));
     call!(add_where_f32x8(a: __m256, m: __m256, b: __m256) -> __m256, "avx2", _mm256_blendv_ps(a, _mm256_add_ps(a, b), m));
     call!(not_f32x8(a: __m256) -> __m256, "avx2", _mm256_xor_ps(a, _mm256_castsi256_ps(_mm256_set1_epi32(-1))));
     call!(abs_f32x8(a: __m256) -> __m256, "avx2", _mm256_andnot_ps(_mm256_set1_ps(-0.0), a));
-    call!(bits_f32x8(a: __m256) -> u32, "avx2", _mm256_movemask_ps(a) as u32);
+    signs!(bits_f32x8 __m256, "vmovmskps {bits:e}, {a}");
     call!(from_bits_f32x8(bits: u32) -> __m256, "avx2", {
         let each = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
         let set = _mm256_and_si256(_mm256_set1_epi32(bits as i32), each);
@@ -751,15 +813,31 @@ mod x86 {
         _mm256_sqrt_ps abs_f32x8 _mm256_min_ps _mm256_max_ps,
         rough rough_f32x8,
         less less_f32x8, less_equal less_equal_f32x8, choose choose_f32x8, add_where add_where_f32x8,
-        and _mm256_and_ps, or _mm256_or_ps, not not_f32x8, bits bits_f32x8, from_bits from_bits_f32x8);
+        and _mm256_and_ps, or _mm256_or_ps, not not_f32x8, bits bits_f32x8, from_bits from_bits_f32x8, pack pack_f32x8,
+        pack_numbers pack_numbers_avx8, pack_listed pack_listed_avx8, listed listed_avx8);
 
-    call!(less_f64x4(a: __m256d, b: __m256d) -> __m256d, "avx2", _mm256_cmp_pd::<_CMP_LT_OQ>(a, b));
-    call!(less_equal_f64x4(a: __m256d, b: __m256d) -> __m256d, "avx2", _mm256_cmp_pd::<_CMP_LE_OQ>(a, b));
+    compare!(less_f64x4 __m256d, "vcmplt_oqpd {mask}, {a}, {b}");
+    compare!(less_equal_f64x4 __m256d, "vcmple_oqpd {mask}, {a}, {b}");
+    call!(write pack_f64x4(v: __m256d, bits: u32, to: *mut f64), "avx2", {
+        let halves = _mm256_permutevar8x32_ps(_mm256_castpd_ps(v), order8(&SET_HALVES[bits as usize & 15]));
+        _mm256_storeu_pd(to, _mm256_castps_pd(halves));
+    });
+    call!(write pack_numbers4(first: u32, bits: u32, to: *mut u32), "avx2",
+        _mm_storeu_si128(to.cast(), _mm_add_epi32(_mm_set1_epi32(first as i32), order4(&SET[bits as usize & 15]))));
+    call!(write pack_listed4(from: *const u32, bits: u32, to: *mut u32), "avx2", {
+        let all = _mm_castsi128_ps(_mm_loadu_si128(from.cast()));
+        let packed = _mm_permutevar_ps(all, order4(&SET[bits as usize & 15]));
+        _mm_storeu_si128(to.cast(), _mm_castps_si128(packed));
+    });
+    call!(read listed4(from: *const u32, value: u32) -> u32, "avx2", {
+        let equal = _mm_cmpeq_epi32(_mm_loadu_si128(from.cast()), _mm_set1_epi32(value as i32));
+        _mm_movemask_ps(_mm_castsi128_ps(equal)) as u32
+    });
     call!(choose_f64x4(m: __m256d, y: __m256d, n: __m256d) -> __m256d, "avx2", _mm256_blendv_pd(n, y, m));
     call!(add_where_f64x4(a: __m256d, m: __m256d, b: __m256d) -> __m256d, "avx2", _mm256_blendv_pd(a, _mm256_add_pd(a, b), m));
     call!(not_f64x4(a: __m256d) -> __m256d, "avx2", _mm256_xor_pd(a, _mm256_castsi256_pd(_mm256_set1_epi32(-1))));
     call!(abs_f64x4(a: __m256d) -> __m256d, "avx2", _mm256_andnot_pd(_mm256_set1_pd(-0.0), a));
-    call!(bits_f64x4(a: __m256d) -> u32, "avx2", _mm256_movemask_pd(a) as u32);
+    signs!(bits_f64x4 __m256d, "vmovmskpd {bits:e}, {a}");
     call!(from_bits_f64x4(bits: u32) -> __m256d, "avx2", {
         let each = _mm256_setr_epi64x(1, 2, 4, 8);
         let set = _mm256_and_si256(_mm256_set1_epi64x(i64::from(bits)), each);
@@ -772,7 +850,8 @@ mod x86 {
         _mm256_sqrt_pd abs_f64x4 _mm256_min_pd _mm256_max_pd,
         rough rough_f64x4,
         less less_f64x4, less_equal less_equal_f64x4, choose choose_f64x4, add_where add_where_f64x4,
-        and _mm256_and_pd, or _mm256_or_pd, not not_f64x4, bits bits_f64x4, from_bits from_bits_f64x4);
+        and _mm256_and_pd, or _mm256_or_pd, not not_f64x4, bits bits_f64x4, from_bits from_bits_f64x4, pack pack_f64x4,
+        pack_numbers pack_numbers4, pack_listed pack_listed4, listed listed4);
 }
 
 #[cfg(test)]
