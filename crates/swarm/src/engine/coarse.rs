@@ -141,12 +141,15 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
         }
         let limited = self.within_cone.contains(&true);
         let (cone, margin) = (L::splat(self.cone), L::splat(self.cone_margin));
+        let behind = -margin;
         let (own_block, own_bit) = (row / BLOCK, 1 << (row % BLOCK));
+        let everyone = mask_of(BLOCK);
         let mut unsure = 0;
         for block in 0..padded / BLOCK {
             let first = block * BLOCK;
-            let mut members = [0; RINGS];
-            let (mut nearest, mut blurred) = (0, 0);
+            // nearer than each bound for sure, and perhaps; in view for sure, and perhaps: logic is quicker with bits
+            let (mut surely, mut perhaps) = ([0; RINGS], [0; RINGS]);
+            let (mut seen, mut glimpsed) = if limited { (0, 0) } else { (everyone, everyone) };
             for part in (0..BLOCK).step_by(L::WIDTH) {
                 let mut offset = me;
                 for a in 0..D {
@@ -154,31 +157,26 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
                 }
                 let squared = dot(&offset, &offset);
                 squared.store(&mut squares[first + part..]);
-                let (mut seen, mut blur) = (L::Mask::all_of(true), L::Mask::all_of(false));
                 if limited {
                     let along = dot(&heading, &offset);
                     let ahead = along * along.size() - cone * squared;
-                    seen = margin.less_equal(ahead);
-                    blur = margin.less_equal(ahead.size()).not().and(squared.less(high[RINGS - 1]));
+                    seen |= margin.less_equal(ahead).bits() << part;
+                    glimpsed |= behind.less_equal(ahead).bits() << part;
                 }
-                let mut inside = L::Mask::all_of(false);
                 for s in 0..RINGS {
-                    let nearer = squared.less(low[s]);
-                    blur = blur.or(squared.less(high[s]).and(nearer.not()));
-                    let ring = nearer.and(inside.not());
-                    let ring = if self.within_cone[s] { ring.and(seen) } else { ring };
-                    members[s] |= ring.bits() << part;
-                    if s == 0 {
-                        nearest |= nearer.bits() << part;
-                    }
-                    inside = nearer;
+                    surely[s] |= squared.less(low[s]).bits() << part;
+                    perhaps[s] |= squared.less(high[s]).bits() << part;
                 }
-                blurred |= blur.bits() << part;
             }
+            let mut blurred = (glimpsed ^ seen) & perhaps[RINGS - 1];
+            let mut inside = 0;
             for s in 0..RINGS {
-                marks[s][block] = members[s] as u16;
+                let view = if self.within_cone[s] { seen } else { everyone };
+                marks[s][block] = (surely[s] & !inside & view) as u16;
+                blurred |= perhaps[s] ^ surely[s];
+                inside = surely[s];
             }
-            close[block] = nearest as u16;
+            close[block] = surely[0] as u16;
             unsure |= blurred & !(if block == own_block { own_bit } else { 0 });
         }
         // all but oneself
@@ -186,7 +184,7 @@ impl<const D: usize> Task<f32> for MarkCoarse<'_, D> {
         for marks in marks {
             marks[own_block] &= !(own_bit as u16);
         }
-        unsure & mask_of(BLOCK) == 0
+        unsure & everyone == 0
     }
 }
 

@@ -24,7 +24,7 @@ use space::random::{Purpose, Stream as DrawStream, unit_vector};
 use space::spelling::nearest;
 use space::{Column, Columns, Frame, Grid, GroupRange, LiveGrid, PADDING, Real, Space, Vector};
 
-/// Cells pay from this number of agents on.
+/// Cells pay from this number of agents on, and from twice as many where rings of everyone are marked in single precision.
 const CELLS_FROM: usize = 256;
 
 /// A group of a running world.
@@ -391,9 +391,20 @@ where
         let scratch = (0..workers.threads()).map(|_| Scratch::new(declared.len())).collect();
         let sequential = matches!(plan.driver, Driver::Sequential(_));
         let delayed = matches!(plan.driver, Driver::Asynchronous { .. });
+        // rings of everyone can be marked in single precision
+        let marked = size_of::<R>() > size_of::<f32>()
+            && !(sequential || delayed || plan.space.is_periodic())
+            && groups.iter().any(|g| g.kernel.marks());
         let cells = match plan.index {
             IndexChoice::Pairs => false,
-            IndexChoice::Automatic => agents >= if sequential { 64 } else { CELLS_FROM },
+            IndexChoice::Automatic => {
+                agents
+                    >= match (sequential, marked) {
+                        (true, _) => 64,
+                        (_, true) => 2 * CELLS_FROM,
+                        _ => CELLS_FROM,
+                    }
+            }
             IndexChoice::Cells => agents > 0,
         };
         // a place that is no number is in no cell
@@ -405,10 +416,7 @@ where
             Sensing::Ideal(_) => None,
         });
         let memory = associated.map_or_else(Vec::new, |gate| vec![Memory::new(gate); agents]);
-        let rough = size_of::<R>() > size_of::<f32>()
-            && reach.is_none()
-            && !(sequential || delayed || plan.space.is_periodic())
-            && groups.iter().any(|g| g.kernel.marks());
+        let rough = marked && reach.is_none();
         let mut world = Self {
             compiled: Models::engine(),
             space: plan.space,
