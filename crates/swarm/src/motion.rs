@@ -718,6 +718,64 @@ impl<R: Real, const D: usize> Other<'_, R, D> {
     }
 }
 
+/// So many neighbours stand in [`Together`].
+pub const TOGETHER: usize = 16;
+
+/// Neighbours of some of the agents of a block, for laws that take several at a time.
+pub struct Together<'a, R, L: Lanes<R>, const D: usize> {
+    /// So many there are; what stands behind them is anything.
+    pub count: usize,
+    /// From each agent to each of them.
+    pub offset: [[L; D]; TOGETHER],
+    /// Squared distances.
+    pub squared: [L; TOGETHER],
+    /// Whose neighbours they are.
+    pub near: [L::Mask; TOGETHER],
+    row: [usize; TOGETHER],
+    others: &'a Columns<R, D>,
+    heading: &'a [Vec<R>; D],
+    columns: &'a [usize],
+}
+
+impl<'a, R: Real, L: Lanes<R>, const D: usize> Together<'a, R, L, D> {
+    /// Nobody yet, of these others with these headings.
+    #[inline(always)]
+    pub fn new(others: &'a Columns<R, D>, heading: &'a [Vec<R>; D], columns: &'a [usize]) -> Self {
+        let zero = L::splat(R::ZERO);
+        Self {
+            count: 0,
+            offset: [[zero; D]; TOGETHER],
+            squared: [zero; TOGETHER],
+            near: [L::Mask::all_of(false); TOGETHER],
+            row: [0; TOGETHER],
+            others,
+            heading,
+            columns,
+        }
+    }
+    /// Takes one more if it is anybody's neighbour (nothing branches on that, since nobody could foretell it); whether there is
+    /// no room left.
+    #[inline(always)]
+    pub fn push(&mut self, offset: &[L; D], squared: L, near: L::Mask, row: usize) -> bool {
+        let k = self.count % TOGETHER;
+        (self.offset[k], self.squared[k], self.near[k], self.row[k]) = (*offset, squared, near, row);
+        self.count = k + usize::from(near.any());
+        self.count == TOGETHER
+    }
+    /// One of them.
+    #[inline(always)]
+    pub fn other(&self, k: usize) -> Other<'a, R, D> {
+        let row = self.row[k];
+        Other {
+            velocity: self.others.velocity(row),
+            heading: Vector(core::array::from_fn(|a| self.heading[a][row])),
+            row,
+            others: self.others,
+            columns: self.columns,
+        }
+    }
+}
+
 /// Named sets of a streaming law, one mask each; those a law does not use stay false.
 pub type SetMasks<M> = [M; 4];
 
@@ -749,6 +807,22 @@ pub trait Stream<R: Scalar, const D: usize>: Send + Sync + 'static {
         other: &Other<'_, R, D>,
         sets: &SetMasks<L::Mask>,
     );
+    /// Whether neighbours come to [`Self::gather_together`], and not one by one; not without [`Self::HEADINGS`].
+    const TOGETHER: bool = false;
+    /// Adds several neighbours to the sums, one after the other.
+    #[inline(always)]
+    fn gather_together<L: Lanes<R>>(
+        &self,
+        sums: &mut Self::Sums<L>,
+        me: &MeLanes<L, D>,
+        neighbours: &Together<'_, R, L, D>,
+    ) {
+        for k in 0..neighbours.count.min(TOGETHER) {
+            let (offset, squared, other) = (&neighbours.offset[k], neighbours.squared[k], neighbours.other(k));
+            let sets = self.classify::<L>(me, offset, squared, &other).map(|set| set.and(neighbours.near[k]));
+            self.gather::<L>(sums, me, offset, squared, &other, &sets);
+        }
+    }
     /// The wanted motion from the sums over all neighbours.
     fn finish(&self, me: &mut Me<'_, R, D>, sums: &Self::Sums<R>, draws: &Draws<'_>) -> Motion<R, D>;
     /// Whether every decision uses the uniform draw of slot 0; it is then made for a whole block of agents at once.

@@ -5,7 +5,7 @@ use crate::engine::coarse::Coarse;
 use crate::engine::conduct::Conduct;
 use crate::motion::{
     Abreast, Agents, Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Me, MeLanes, Model, Motion, NearItem,
-    NearObstacle, Other, Percepts, Rough, Single, Start, Stream, Summed, Trace, WIDEST, splat,
+    NearObstacle, Other, Percepts, Rough, Single, Start, Stream, Summed, Together, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::{Mobility, capsule};
@@ -1799,6 +1799,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         rows: Range<usize>,
         shift: Vector<R, D>,
         sums: &mut M::Sums<L>,
+        together: &mut Together<'_, R, L, D>,
     ) {
         let limit = L::splat(self.law().reach() * self.law().reach());
         let (first, count) = (rows.start, rows.len());
@@ -1841,6 +1842,13 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
                 // of all rows, most are near nobody; rows of cells are near somebody
                 continue;
             }
+            if M::TOGETHER {
+                if together.push(&offset, squared, near, j) {
+                    self.law().gather_together::<L>(sums, &block.me, together);
+                    together.count = 0;
+                }
+                continue;
+            }
             let mut sets = self.law().classify::<L>(&block.me, &offset, squared, &other);
             for set in &mut sets {
                 *set = set.and(near);
@@ -1858,6 +1866,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         scratch: &mut Scratch<R, D>,
     ) {
         let mut row = rows.start;
+        let mut together = Together::<R, L, D>::new(view.others, view.heading, &self.listed.stages.columns);
         let mut line = match view.index {
             Index::Sorted(grid) if row < rows.end => grid.line_at(row),
             _ => 0,
@@ -1890,11 +1899,16 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
                 let mut segments = core::mem::take(&mut scratch.segments);
                 grid.around(view.now, line, row..row + count, &mut segments);
                 for s in &segments {
-                    self.meet::<L, false>(view, &block, s.first as usize..s.end as usize, s.shift, &mut sums);
+                    let rows = s.first as usize..s.end as usize;
+                    self.meet::<L, false>(view, &block, rows, s.shift, &mut sums, &mut together);
                 }
                 scratch.segments = segments;
             } else {
-                self.meet::<L, true>(view, &block, 0..view.others.len(), Vector::ZERO, &mut sums);
+                self.meet::<L, true>(view, &block, 0..view.others.len(), Vector::ZERO, &mut sums, &mut together);
+            }
+            if M::TOGETHER && together.count > 0 {
+                self.law().gather_together::<L>(&mut sums, &block.me, &together);
+                together.count = 0;
             }
             let mut each = [<M::Sums<L> as LaneSums<R, L>>::zero_one(); WIDEST];
             sums.split(&mut each[..L::WIDTH]);

@@ -12,7 +12,7 @@ use crate::motion::*;
 use crate::names::lasting;
 use crate::parameters::{Kind, Parameter, ParameterError, Scalar, Value, Values};
 use crate::selection::{NamedSet, Perception, Reach};
-use crate::terms::{self, MOST, Met, NEIGHBOURS, PRIORITY, SET, Stock, Sum, Sums, Written};
+use crate::terms::{self, MOST, Met, MetTogether, NEIGHBOURS, PRIORITY, SET, Stock, Sum, Sums, Written};
 use crate::{choice, parameters};
 use space::Vector;
 use space::lanes::{Lanes, Mask};
@@ -520,6 +520,59 @@ impl<R: Scalar, const D: usize> Stream<R, D> for Composition<R, D> {
             if self.sets.len() == 1 || mask.any() {
                 term.meet(&mut sums.terms[t], &met, mask);
             }
+        }
+    }
+    // a term is looked up once for several neighbours, and keeps its sum at hand
+    const TOGETHER: bool = true;
+    #[inline(always)]
+    fn gather_together<L: Lanes<R>>(
+        &self,
+        sums: &mut Sums<L, D>,
+        me: &MeLanes<L, D>,
+        neighbours: &Together<'_, R, L, D>,
+    ) {
+        let count = neighbours.count.min(TOGETHER);
+        let mut masks = [neighbours.near; SETS];
+        for (l, limit) in self.limits.iter().flat_map(|limits| limits.all.iter().enumerate()) {
+            let mut held = neighbours.near;
+            match *limit {
+                Limit::From(low) => {
+                    for k in 0..count {
+                        held[k] = L::splat(low).less_equal(neighbours.squared[k]);
+                    }
+                }
+                Limit::Below(high) => {
+                    for k in 0..count {
+                        held[k] = neighbours.squared[k].less(L::splat(high));
+                    }
+                }
+                Limit::Cone(cos_half) => {
+                    for k in 0..count {
+                        held[k] = in_view(&me.heading, &neighbours.offset[k], neighbours.squared[k], cos_half);
+                    }
+                }
+                Limit::Never => held = [L::Mask::all_of(false); TOGETHER],
+            }
+            for s in 0..self.sets.len().min(SETS) {
+                if self.limits.as_ref().is_some_and(|limits| limits.of[s] >> l & 1 == 1) {
+                    for k in 0..count {
+                        masks[s][k] = masks[s][k].and(held[k]);
+                    }
+                }
+            }
+        }
+        let (mut distance, mut towards) = (neighbours.squared, neighbours.offset);
+        if self.directed {
+            for k in 0..count {
+                distance[k] = neighbours.squared[k].square_root();
+                towards[k] = directions(&neighbours.offset[k], neighbours.squared[k]);
+            }
+        }
+        sums.used = self.met.len();
+        for t in 0..self.met.len().min(MOST) {
+            let (term, set) = &self.met[t];
+            let met = MetTogether { neighbours, distance: &distance, towards: &towards, me, mask: &masks[*set] };
+            term.meet_together(&mut sums.terms[t], &met, self.sets.len() > 1);
         }
     }
     #[inline(always)]

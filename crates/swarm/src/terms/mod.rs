@@ -6,9 +6,9 @@
 //! from the agent and its surroundings, it makes a vector ([`Term::vector`]), which its weight multiplies.
 
 use crate::choice;
-use crate::motion::{Draws, LaneSums, Me, MeLanes, Other, add_where};
+use crate::motion::{Draws, LaneSums, Me, MeLanes, Other, TOGETHER, Together, add_where};
 use crate::parameters::{Descriptor, Origin, Parameter, ParameterError, Parameters, Range, Scalar, Value, Values};
-use space::lanes::Lanes;
+use space::lanes::{Lanes, Mask};
 use space::{Real, Vector};
 
 /// What a term says of itself.
@@ -150,6 +150,16 @@ pub struct Met<'a, R, L, const D: usize> {
     pub me: &'a MeLanes<'a, L, D>,
     /// The neighbour.
     pub other: &'a Other<'a, R, D>,
+}
+
+/// Several neighbours, as [`Met`] is one.
+pub(crate) struct MetTogether<'a, R, L: Lanes<R>, const D: usize> {
+    pub(crate) neighbours: &'a Together<'a, R, L, D>,
+    pub(crate) distance: &'a [L; TOGETHER],
+    pub(crate) towards: &'a [[L; D]; TOGETHER],
+    pub(crate) me: &'a MeLanes<'a, L, D>,
+    /// Whose neighbours each is, in the set of the term.
+    pub(crate) mask: &'a [L::Mask; TOGETHER],
 }
 
 impl<R: Scalar, L: Lanes<R>, const D: usize> Met<'_, R, L, D> {
@@ -306,6 +316,35 @@ macro_rules! terms {
                 mask: L::Mask,
             ) {
                 match self { $(Self::$name(term) => term.meet(sum, met, mask),)* }
+            }
+            /// Adds several neighbours, one after the other; `seldom` where most are in other sets.
+            #[inline(always)]
+            pub(crate) fn meet_together<L: Lanes<R>, const D: usize>(
+                &self,
+                sum: &mut Sum<L, D>,
+                met: &MetTogether<'_, R, L, D>,
+                seldom: bool,
+            ) {
+                let neighbours = met.neighbours;
+                match self { $(Self::$name(term) => {
+                    let mut own = *sum;
+                    for k in 0..neighbours.count.min(TOGETHER) {
+                        let mask = met.mask[k];
+                        if seldom && !mask.any() {
+                            continue;
+                        }
+                        let one = Met {
+                            offset: &neighbours.offset[k],
+                            distance: met.distance[k],
+                            towards: met.towards[k],
+                            squared: neighbours.squared[k],
+                            me: met.me,
+                            other: &neighbours.other(k),
+                        };
+                        term.meet(&mut own, &one, mask);
+                    }
+                    *sum = own;
+                })* }
             }
             /// The weighted vector.
             #[inline(always)]
