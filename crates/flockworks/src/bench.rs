@@ -1,18 +1,18 @@
 //! `flockworks bench`: agent-updates per second of the workloads, and what each model costs beside a plain loop.
 
 use crate::fault::{Fault, hint, wrong};
-use crate::plain::{Plain, plain};
 use crate::step::Precision;
 use crate::table::Table;
 use crate::workloads::{NAMES, Running, SEED, Workload};
 use clap::{Args, ValueEnum};
+use plain::{Plain, PlainStep, in_space, kept, on_a_ring, plain};
 use serde_json::{Value as Json, json};
 use space::{Space, Vector};
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::time::Instant;
 use swarm::engine::{GroupPlan, Placement};
 use swarm::models::{Catalogue, Entry, LIST, Models};
-use swarm::parameters::Values;
+use swarm::parameters::{Scalar, Values};
 use swarm::{World, WorldPlan};
 
 /// Shortest time over which anything is measured, in seconds; shorter trials are repeated within a measurement.
@@ -406,7 +406,8 @@ fn of_models(options: &BenchOptions, out: &mut dyn Write) -> Result<(), Fault> {
     table.right(&[1, 3, 4, 5, 6, 7]);
     let mut list = Vec::new();
     let mut refused = Vec::new();
-    for entry in entries {
+    for (k, entry) in entries.iter().enumerate() {
+        tell(k + 1, entries.len(), entry.card.id);
         for &agents in &sizes {
             for &precision in &precisions {
                 match cost(entry, agents, threads, precision, options) {
@@ -446,6 +447,14 @@ fn of_models(options: &BenchOptions, out: &mut dyn Write) -> Result<(), Fault> {
     Ok(())
 }
 
+/// Tells on a terminal which model of how many is measured.
+#[allow(clippy::print_stderr, reason = "progress is told on standard error")]
+fn tell(number: usize, models: usize, id: &str) {
+    if std::io::stderr().is_terminal() {
+        eprintln!("model {number} of {models}: {id}");
+    }
+}
+
 fn cost(
     entry: &'static Entry,
     agents: usize,
@@ -453,21 +462,36 @@ fn cost(
     precision: Precision,
     options: &BenchOptions,
 ) -> Result<Cost, Fault> {
-    let build = |side: f64| match (precision, entry.dimensions) {
-        (Precision::F32, [1, ..]) if entry.dimensions.len() == 1 => start::<f32, 1>(entry, agents, side, threads),
-        (Precision::F64, [1, ..]) if entry.dimensions.len() == 1 => start::<f64, 1>(entry, agents, side, threads),
-        (Precision::F32, list) if list.contains(&2) => start::<f32, 2>(entry, agents, side, threads),
-        (Precision::F64, list) if list.contains(&2) => start::<f64, 2>(entry, agents, side, threads),
-        (Precision::F32, _) => start::<f32, 3>(entry, agents, side, threads),
-        (Precision::F64, _) => start::<f64, 3>(entry, agents, side, threads),
-    };
+    let id = entry.card.id;
     let dimension = if entry.dimensions.contains(&2) { 2 } else { entry.dimensions[0] };
-    let side = fitting_side(agents, dimension, &build)?;
-    let mut world = build(side)?;
-    let first = Plain::of(&world.motion());
+    match (precision, dimension) {
+        (Precision::F32, 1) => cost_in::<f32, 1>(entry, agents, threads, precision, on_a_ring(id), options),
+        (Precision::F64, 1) => cost_in::<f64, 1>(entry, agents, threads, precision, on_a_ring(id), options),
+        (Precision::F32, 2) => cost_in::<f32, 2>(entry, agents, threads, precision, plain(id), options),
+        (Precision::F64, 2) => cost_in::<f64, 2>(entry, agents, threads, precision, plain(id), options),
+        (Precision::F32, _) => cost_in::<f32, 3>(entry, agents, threads, precision, in_space(id), options),
+        (Precision::F64, _) => cost_in::<f64, 3>(entry, agents, threads, precision, in_space(id), options),
+    }
+}
+
+fn cost_in<R: Scalar, const D: usize>(
+    entry: &'static Entry,
+    agents: usize,
+    threads: usize,
+    precision: Precision,
+    step_of_plain: Option<PlainStep<D>>,
+    options: &BenchOptions,
+) -> Result<Cost, Fault>
+where
+    Models: Catalogue<R, D>,
+{
+    let side = fitting_side(agents, D, &|side| start::<R, D>(entry, agents, side, threads))?;
+    let build = || begun::<R, D>(entry, agents, side, threads);
+    let mut world = build()?;
+    let first = members(&world, kept(entry.card.id));
     let neighbours = world.mean_neighbours(1);
     world.run(1);
-    let after = world.motion();
+    let after = members(&world, kept(entry.card.id));
     let mut engine_steps = options.steps.unwrap_or(20);
     let row = |name: String, steps: u64, threads: usize, precision: Precision| Row {
         workload: name,
@@ -487,12 +511,9 @@ fn cost(
         engine_steps = 5;
     }
     let worlds = (SHORTEST / once.max(1e-6)).ceil().clamp(1.0, 200.0) as usize;
-    let steps_of_plain = match plain(entry.card.id) {
-        Some(step) if dimension == 2 => Some((step, 3u64)),
-        _ => None,
-    };
+    let steps_of_plain = step_of_plain.map(|step| (step, 3u64));
     let (mut walls, mut cpus, mut plain_walls, mut plain_cpus) = (vec![], vec![], vec![], vec![]);
-    let mut apart: f64 = 0.0;
+    let mut furthest: f64 = 0.0;
     for _ in 0..options.repeats {
         let timed = |work: &mut dyn FnMut()| {
             let (before, begin) = (processor_time(), Instant::now());
@@ -502,7 +523,7 @@ fn cost(
         };
         let (mut wall, mut cpu) = (0.0, Some(0.0));
         for _ in 0..worlds {
-            let mut world = build(side)?;
+            let mut world = build()?;
             let (w, c) = timed(&mut || world.run(engine_steps));
             wall += w / worlds as f64;
             cpu = cpu.zip(c).map(|(sum, c)| sum + c / worlds as f64);
@@ -524,13 +545,13 @@ fn cost(
     engine.wall = median(&walls);
     engine.cpu = cpus.into_iter().collect::<Option<Vec<f64>>>().map(|cpu| median(&cpu));
     let plain = steps_of_plain.map(|(step, steps)| {
-        apart = step(&first).apart(&after);
+        furthest = apart(&step(&first), &after);
         let mut plain = row(format!("plain/{}", entry.card.id), steps, 1, Precision::F64);
         plain.wall = median(&plain_walls);
         plain.cpu = plain_cpus.into_iter().collect::<Option<Vec<f64>>>().map(|cpu| median(&cpu));
         plain
     });
-    Ok(Cost { engine, plain, apart })
+    Ok(Cost { engine, plain, apart: furthest })
 }
 
 /// The side of a box in which members have about [`NEIGHBOURS`] neighbours, where that depends on the side.
@@ -559,12 +580,24 @@ pub(crate) fn fitting_side(
 }
 
 /// A world of a model with its defaults, uniform in a box of this side: in open space, or on a ring twice as long.
-pub(crate) fn start<R: swarm::parameters::Scalar, const D: usize>(
+pub(crate) fn start<R: Scalar, const D: usize>(
     entry: &Entry,
     agents: usize,
     side: f64,
     threads: usize,
 ) -> Result<Box<dyn Running>, Fault>
+where
+    Models: Catalogue<R, D>,
+{
+    Ok(Box::new(begun::<R, D>(entry, agents, side, threads)?))
+}
+
+fn begun<R: Scalar, const D: usize>(
+    entry: &Entry,
+    agents: usize,
+    side: f64,
+    threads: usize,
+) -> Result<World<R, D>, Fault>
 where
     Models: Catalogue<R, D>,
 {
@@ -575,25 +608,35 @@ where
     let mut plan = WorldPlan::new(space, group);
     plan.seed = SEED;
     plan.threads = threads;
-    match World::new(plan) {
-        Ok(world) => Ok(Box::new(world)),
-        Err(error) => wrong(error.to_string()),
+    World::new(plan).or_else(|error| wrong(error.to_string()))
+}
+
+/// The members of a world, with these of their declared columns.
+fn members<R: Scalar, const D: usize>(world: &World<R, D>, kept: &[&str]) -> Plain<D> {
+    let frame = world.frame();
+    let rows = frame.rows_by_id();
+    let column = |name: &&str| {
+        let at = frame.declared.iter().position(|column| column.name == *name);
+        rows.iter().map(|&row| at.map_or(f64::NAN, |at| frame.columns.state[at][row].to_f64())).collect()
+    };
+    Plain {
+        position: rows.iter().map(|&row| frame.columns.position(row).0.map(R::to_f64)).collect(),
+        velocity: rows.iter().map(|&row| frame.columns.velocity(row).0.map(R::to_f64)).collect(),
+        state: kept.iter().map(column).collect(),
+        seed: SEED,
+        step: frame.step,
+        ring: frame.space.side(0).map_or(f64::INFINITY, R::to_f64),
     }
 }
 
-impl Plain {
-    fn of(motion: &(Vec<Vec<f64>>, Vec<Vec<f64>>)) -> Self {
-        let two = |list: &[Vec<f64>]| {
-            list.iter().map(|v| [v.first().copied().unwrap_or(0.0), v.get(1).copied().unwrap_or(0.0)]).collect()
-        };
-        Self { position: two(&motion.0), velocity: two(&motion.1) }
-    }
-    /// Largest difference of any component.
-    fn apart(&self, motion: &(Vec<Vec<f64>>, Vec<Vec<f64>>)) -> f64 {
-        let other = Self::of(motion);
-        let pairs = self.position.iter().zip(&other.position).chain(self.velocity.iter().zip(&other.velocity));
-        pairs.flat_map(|(a, b)| [(a[0] - b[0]).abs(), (a[1] - b[1]).abs()]).fold(0.0, f64::max)
-    }
+/// Largest difference of any number; infinite where one is none.
+fn apart<const D: usize>(a: &Plain<D>, b: &Plain<D>) -> f64 {
+    let numbers = |of: &Plain<D>| -> Vec<f64> {
+        let motion = of.position.iter().chain(&of.velocity).flatten();
+        motion.chain(of.state.iter().flatten()).copied().collect()
+    };
+    let differences = numbers(a).into_iter().zip(numbers(b)).map(|(a, b)| (a - b).abs());
+    differences.map(|apart| if apart.is_nan() { f64::INFINITY } else { apart }).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -619,7 +662,8 @@ mod tests {
             json: false,
             model: None,
         };
-        for entry in LIST.iter().filter(|entry| plain(entry.card.id).is_some()) {
+        let has_loop = |id: &str| plain(id).is_some() || on_a_ring(id).is_some() || in_space(id).is_some();
+        for entry in LIST.iter().filter(|entry| has_loop(entry.card.id)) {
             let cost = cost(entry, 60, 1, Precision::F64, &options);
             let apart = cost.map(|cost| cost.apart).unwrap_or(f64::INFINITY);
             assert!(apart < 1e-9, "{}: {apart}", entry.card.id);

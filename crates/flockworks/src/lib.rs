@@ -16,7 +16,6 @@ pub mod kinds;
 pub mod metrics;
 pub mod models;
 pub mod picture;
-pub mod plain;
 pub mod run;
 pub mod step;
 pub mod table;

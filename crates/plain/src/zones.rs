@@ -1,8 +1,8 @@
 //! Laws of zones.
 
-use super::{Plain, add, each, moved, others, turned, unit, unit_or};
+use crate::{Plain, add, each, moved, others, turned, unit, unit_or};
 
-pub(super) fn couzin_2005(now: &Plain) -> Plain {
+pub(crate) fn couzin_2005(now: &Plain) -> Plain {
     let (r_rho, range, speed, turning, dt) = (1.0, 6.0, 1.0, 2.0, 0.2);
     each(now, |i| {
         let heading = unit(now.velocity[i]);
@@ -23,7 +23,7 @@ pub(super) fn couzin_2005(now: &Plain) -> Plain {
     })
 }
 
-pub(super) fn conradt_2009(now: &Plain) -> Plain {
+pub(crate) fn conradt_2009(now: &Plain) -> Plain {
     let (r_rho, r_att, speed, dt) = (1.0, 10.0, 1.0, 0.2);
     each(now, |i| {
         let (mut apart, mut social, mut repelled, mut attracted) = ([0.0; 2], [0.0; 2], 0.0, 0.0);
@@ -49,7 +49,7 @@ pub(super) fn conradt_2009(now: &Plain) -> Plain {
     })
 }
 
-pub(super) fn lopez_2012(now: &Plain) -> Plain {
+pub(crate) fn lopez_2012(now: &Plain) -> Plain {
     let (radius, w_al, decay, w_at, r_e, speed, dt) = (6.0, 1.0, 3.0, 1.0, 1.0, 1.0, 0.1);
     each(now, |i| {
         let (mut sum, mut count) = ([0.0; 2], 0.0);
@@ -67,7 +67,7 @@ pub(super) fn lopez_2012(now: &Plain) -> Plain {
     })
 }
 
-pub(super) fn tien_2004(now: &Plain) -> Plain {
+pub(crate) fn tien_2004(now: &Plain) -> Plain {
     let (r_r, r_n, r_a, speed, dt) = (1.0, 2.5, 6.0, 1.0, 0.2);
     let cos_half = (300f64.to_radians() / 2.0).cos();
     let turning = 90f64.to_radians();
@@ -91,7 +91,7 @@ pub(super) fn tien_2004(now: &Plain) -> Plain {
     })
 }
 
-pub(super) fn lukeman_2010(now: &Plain) -> Plain {
+pub(crate) fn lukeman_2010(now: &Plain) -> Plain {
     let (r_rep, r_al, r_att, w_rep, w_al, w_att, w_fr) = (1.5, 3.0, 6.0, 1.5, 0.5, 0.3, 0.3);
     let (d_fr, r_fr, propulsion, drag, dt) = (2.0, 4.0, 1.0, 1.0, 0.1);
     let cos_half = (60f64.to_radians() / 2.0).cos();

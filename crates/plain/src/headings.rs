@@ -1,6 +1,6 @@
 //! Laws of mean headings.
 
-use super::{Plain, add, each, moved, others, unit, unit_or};
+use crate::{Plain, add, each, moved, others, turned, turned_by, unit, unit_or};
 
 /// The sum of the headings within a radius, the own one included.
 fn summed(now: &Plain, i: usize, radius: f64) -> [f64; 2] {
@@ -13,17 +13,17 @@ fn summed(now: &Plain, i: usize, radius: f64) -> [f64; 2] {
     unit_or(sum, unit(now.velocity[i]))
 }
 
-pub(super) fn czirok_1997(now: &Plain) -> Plain {
+pub(crate) fn czirok_1997(now: &Plain) -> Plain {
     let (radius, speed, dt) = (1.0, 0.03, 1.0);
     each(now, |i| (moved(now, i, now.velocity[i], dt), summed(now, i, radius).map(|c| c * speed)))
 }
 
-pub(super) fn smith_martin_2009(now: &Plain) -> Plain {
+pub(crate) fn smith_martin_2009(now: &Plain) -> Plain {
     let (radius, speed, dt) = (1.0, 0.03, 1.0);
     each(now, |i| (moved(now, i, now.velocity[i], dt), summed(now, i, radius).map(|c| c * speed)))
 }
 
-pub(super) fn toner_tu_1998(now: &Plain) -> Plain {
+pub(crate) fn toner_tu_1998(now: &Plain) -> Plain {
     let (radius, speed, dt) = (1.0, 0.5, 1.0);
     each(now, |i| {
         let velocity = summed(now, i, radius).map(|c| c * speed);
@@ -31,7 +31,7 @@ pub(super) fn toner_tu_1998(now: &Plain) -> Plain {
     })
 }
 
-pub(super) fn gregoire_2003_vectorial(now: &Plain) -> Plain {
+pub(crate) fn gregoire_2003_vectorial(now: &Plain) -> Plain {
     let (alpha, beta, r_hc, r_e, r_a, r_0, speed, dt) = (20.0, 0.5, 0.2, 0.5, 0.8, 1.0, 0.05, 1.0);
     each(now, |i| {
         let (mut core, mut apart) = (false, [0.0; 2]);
@@ -54,7 +54,7 @@ pub(super) fn gregoire_2003_vectorial(now: &Plain) -> Plain {
     })
 }
 
-pub(super) fn boids_unit_heading(now: &Plain) -> Plain {
+pub(crate) fn boids_unit_heading(now: &Plain) -> Plain {
     let (radius, cohesion, alignment, separation, softening, speed, dt) = (1.0, 0.03, 0.05, 0.2, 1e-4, 0.05, 1.0);
     each(now, |i| {
         let heading = unit(now.velocity[i]);
@@ -79,7 +79,7 @@ pub(super) fn boids_unit_heading(now: &Plain) -> Plain {
     })
 }
 
-pub(super) fn abm_flocking(now: &Plain) -> Plain {
+pub(crate) fn abm_flocking(now: &Plain) -> Plain {
     let (radius, near, cohesion, separation, alignment, speed, dt) = (5.0, 1.0, 0.03, 0.015, 0.05, 1.0, 1.0);
     each(now, |i| {
         let (mut sum, mut count) = ([0.0; 2], 0.0);
@@ -100,7 +100,7 @@ pub(super) fn abm_flocking(now: &Plain) -> Plain {
     })
 }
 
-pub(super) fn codling_2007(now: &Plain) -> Plain {
+pub(crate) fn codling_2007(now: &Plain) -> Plain {
     let (radius, social, speed, dt) = (5.0, 0.5, 1.0, 1.0);
     each(now, |i| {
         let estimate = unit(now.velocity[i]);
@@ -117,6 +117,33 @@ pub(super) fn codling_2007(now: &Plain) -> Plain {
             add(&mut wanted, social, crowd);
         }
         let velocity = unit_or(wanted, estimate).map(|c| c * speed);
+        (moved(now, i, velocity, dt), velocity)
+    })
+}
+
+pub(crate) fn control_boids(now: &Plain) -> Plain {
+    let (radius, separation_radius, separation, alignment, cohesion, heading_weight) = (22.0, 8.0, 1.5, 1.0, 1.0, 1.0);
+    let (saturation, deviation, turning, step, dt): (f64, f64, f64, f64, f64) = (6.0, 0.2, 0.5, 0.65, 1.0);
+    each(now, |i| {
+        let heading = unit(now.velocity[i]);
+        let (mut apart, mut matched, mut centre, mut count) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0);
+        for (j, offset, distance) in others(now, i) {
+            if distance < radius {
+                if distance < separation_radius && distance > 1e-12 {
+                    add(&mut apart, -1.0 / (distance * distance), offset);
+                }
+                add(&mut matched, 1.0, unit(now.velocity[j]));
+                add(&mut centre, 1.0, offset);
+                count += 1.0;
+            }
+        }
+        let social = f64::min(count / saturation, 1.0);
+        let wandering = turned_by(heading, deviation * now.draws(i).normal(0));
+        let mut wanted = wandering.map(|c| heading_weight * c);
+        add(&mut wanted, separation, unit(apart));
+        add(&mut wanted, social * alignment, unit(matched));
+        add(&mut wanted, social * cohesion, unit(centre));
+        let velocity = turned(heading, unit_or(wanted, heading), turning).map(|c| c * step / dt);
         (moved(now, i, velocity, dt), velocity)
     })
 }
