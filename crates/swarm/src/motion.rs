@@ -753,14 +753,13 @@ impl<'a, R: Real, L: Lanes<R>, const D: usize> Together<'a, R, L, D> {
             columns,
         }
     }
-    /// Takes one more if it is anybody's neighbour (nothing branches on that, since nobody could foretell it); whether there is
-    /// no room left.
+    /// Puts one more behind the first `found` of them, and tells how many there are then: it stays if it is anybody's neighbour
+    /// (nothing branches on that, since nobody could foretell it).
     #[inline(always)]
-    pub fn push(&mut self, offset: &[L; D], squared: L, near: L::Mask, row: usize) -> bool {
-        let k = self.count % TOGETHER;
+    pub fn put(&mut self, found: usize, offset: &[L; D], squared: L, near: L::Mask, row: usize) -> usize {
+        let k = found % TOGETHER;
         (self.offset[k], self.squared[k], self.near[k], self.row[k]) = (*offset, squared, near, row);
-        self.count = k + usize::from(near.any());
-        self.count == TOGETHER
+        k + usize::from(near.any())
     }
     /// One of them.
     #[inline(always)]

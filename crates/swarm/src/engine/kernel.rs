@@ -5,7 +5,7 @@ use crate::engine::coarse::Coarse;
 use crate::engine::conduct::Conduct;
 use crate::motion::{
     Abreast, Agents, Around, BLOCK, Draws, Injected, LaneSums, MOST_OWN, Me, MeLanes, Model, Motion, NearItem,
-    NearObstacle, Other, Percepts, Rough, Single, Start, Stream, Summed, Together, Trace, WIDEST, splat,
+    NearObstacle, Other, Percepts, Rough, Single, Start, Stream, Summed, TOGETHER, Together, Trace, WIDEST, splat,
 };
 use crate::parameters::Scalar;
 use crate::physics::{Mobility, capsule};
@@ -733,6 +733,8 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         scratch.clear();
         let place = view.now.position(row);
         match reach {
+            // nobody is asked for
+            Reach::Within(radius) if radius <= R::TINY => {}
             Reach::Within(radius) => self.within(view, row, place, radius, scratch),
             Reach::All => pairs(view, row, place, R::INFINITY, scratch),
             Reach::Nearest(count) => {
@@ -1812,6 +1814,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             velocity[a] = &view.others.velocity[a][rows.clone()][..count];
             heading[a] = if M::HEADINGS { &view.heading[a][rows.clone()][..count] } else { velocity[a] };
         }
+        let mut found = together.count;
         for k in 0..count {
             let j = first + k;
             if view.dead(view.others, j) {
@@ -1843,9 +1846,11 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
                 continue;
             }
             if M::TOGETHER {
-                if together.push(&offset, squared, near, j) {
+                found = together.put(found, &offset, squared, near, j);
+                if found == TOGETHER {
+                    together.count = found;
                     self.law().gather_together::<L>(sums, &block.me, together);
-                    together.count = 0;
+                    found = 0;
                 }
                 continue;
             }
@@ -1855,6 +1860,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             }
             self.law().gather::<L>(sums, &block.me, &offset, squared, &other, &sets);
         }
+        together.count = found;
     }
 
     #[inline(always)]
@@ -1866,6 +1872,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         scratch: &mut Scratch<R, D>,
     ) {
         let mut row = rows.start;
+        let mut each = [<M::Sums<L> as LaneSums<R, L>>::zero_one(); WIDEST];
         let mut together = Together::<R, L, D>::new(view.others, view.heading, &self.listed.stages.columns);
         let mut line = match view.index {
             Index::Sorted(grid) if row < rows.end => grid.line_at(row),
@@ -1910,7 +1917,6 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
                 self.law().gather_together::<L>(&mut sums, &block.me, &together);
                 together.count = 0;
             }
-            let mut each = [<M::Sums<L> as LaneSums<R, L>>::zero_one(); WIDEST];
             sums.split(&mut each[..L::WIDTH]);
             let mut first = [-1.0; WIDEST];
             if self.law().draws_first() && view.injected.is_none() {

@@ -428,6 +428,9 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
         }
     }
     fn keep_nearest(&self, count: usize, chosen: &mut [bool], scratch: &mut Scratch<R, D>) {
+        if (1..=FEW).contains(&count) {
+            return self.keep_few(count, chosen);
+        }
         let order = &mut scratch.order;
         order.clear();
         order.extend((0..chosen.len() as u32).filter(|&k| chosen[k as usize]));
@@ -438,16 +441,48 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
         if count == 0 {
             return;
         }
-        let nearer = |&a: &u32, &b: &u32| {
-            let (a, b) = (a as usize, b as usize);
-            self.squared[a]
-                .partial_cmp(&self.squared[b])
-                .unwrap_or(core::cmp::Ordering::Equal)
-                .then_with(|| self.id(a).cmp(&self.id(b)))
-        };
+        let nearer = |&a: &u32, &b: &u32| self.nearer(a as usize, b as usize);
         order.select_nth_unstable_by(count - 1, nearer);
         for &k in &order[..count] {
             chosen[k as usize] = true;
         }
     }
+    /// [`Self::keep_nearest`] for at most [`FEW`]: the best so far, in order.
+    fn keep_few(&self, count: usize, chosen: &mut [bool]) {
+        let mut best = [0; FEW];
+        let mut found = 0;
+        for k in 0..chosen.len() {
+            if !chosen[k] {
+                continue;
+            }
+            chosen[k] = false;
+            if found == count {
+                // most are farther than the last of the best
+                if self.squared[k] > self.squared[best[count - 1]] || self.nearer(best[count - 1], k).is_lt() {
+                    continue;
+                }
+                found -= 1;
+            }
+            let mut place = found;
+            while place > 0 && self.nearer(k, best[place - 1]).is_lt() {
+                best[place] = best[place - 1];
+                place -= 1;
+            }
+            best[place] = k;
+            found += 1;
+        }
+        for &k in &best[..found] {
+            chosen[k] = true;
+        }
+    }
+    /// By distance; ties go to the lower id.
+    fn nearer(&self, a: usize, b: usize) -> core::cmp::Ordering {
+        self.squared[a]
+            .partial_cmp(&self.squared[b])
+            .unwrap_or(core::cmp::Ordering::Equal)
+            .then_with(|| self.id(a).cmp(&self.id(b)))
+    }
 }
+
+/// So many nearest are found by insertion.
+const FEW: usize = 16;
