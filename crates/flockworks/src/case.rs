@@ -51,7 +51,11 @@ pub fn split(file: &Json) -> Result<Cases<'_>, Fault> {
     let list = match root.get("cases")? {
         Some(cases) => {
             root.only(&["tolerance", "note", "cases"])?;
-            cases.list()?
+            let list = cases.list()?;
+            if list.is_empty() {
+                return wrong("cases: expected at least one case, found none");
+            }
+            list
         }
         None if object.contains_key("model") => vec![root],
         None => {
@@ -332,8 +336,9 @@ impl Case {
                 }
             }
         }
-        if !self.solids.is_empty() && !BLOCKED.contains(&self.entry.card.id) {
-            // the physical motion of the catalogue's models is ideal
+        if !self.solids.is_empty() && !matches!(self.bounds, Bounds::Walls(_)) && !BLOCKED.contains(&self.entry.card.id)
+        {
+            // the physical motion of the catalogue's models is ideal; where the space has walls, all that is solid stops
             self.contact = Some(Contact::Free);
         }
         if let Some(amount) = energy {

@@ -80,6 +80,7 @@ pub enum Command {
     /// W3       the flocking benchmark of agent-based-model frameworks, 2-D, one agent after the other
     /// W4       a trial of the behaviour-selection study, 3-D: W4/Align/6, W4/Prob/6, W4/Attract/6 and .../199
     /// W5       a generation of competing flocks, 2-D
+    /// W6       a trial of group control: 25 boids among walls that hide, 2-D
     /// models   each model beside a plain hand-written loop, where there is one
     /// compositions  compositions of stock terms beside the compiled models of the same laws
     ///

@@ -7,10 +7,11 @@ use space::random::{Purpose, uniform};
 use space::shape::Shape;
 use space::{Space, Vector};
 use std::collections::BTreeMap;
-use swarm::engine::{Driver, GroupPlan, Order, Placement, Start};
+use swarm::engine::{Driver, GroupPlan, Order, Placement, Sensing, Start};
 use swarm::models::{Catalogue, Models};
 use swarm::parameters::{Scalar, Value, Values};
 use swarm::resources::{Gain, Metabolism, ResourcePlan, Respawn};
+use swarm::sensing::{Ideal, Occlusion};
 use swarm::{World, WorldPlan};
 
 /// Seed of all workloads.
@@ -58,6 +59,8 @@ enum Law {
     Selection { midpoint: f64, growth: f64, nearest: Option<usize> },
     /// W5: a generation of foraging.
     Foraging,
+    /// W6: a trial of group control.
+    Control,
 }
 
 /// A workload at one size.
@@ -73,7 +76,7 @@ pub struct Workload {
 }
 
 /// Names that a user may give, with what they stand for.
-pub const NAMES: [(&str, &str); 14] = [
+pub const NAMES: [(&str, &str); 15] = [
     ("W1", "Vicsek, 2-D, noise amplitude 4: near uniform"),
     ("W1c", "Vicsek, 2-D, noise amplitude 2: clustered"),
     ("W2", "boids with unit headings, 3-D"),
@@ -86,6 +89,7 @@ pub const NAMES: [(&str, &str); 14] = [
     ("W4/Prob/199", "its variant Prob with all neighbours"),
     ("W4/Attract/199", "its variant Attract with all neighbours"),
     ("W5", "a generation of competing flocks"),
+    ("W6", "a trial of group control: boids among walls that hide"),
     ("models", "every model of the list, beside a plain loop where there is one"),
     ("compositions", "compositions of stock terms beside the compiled models of the same laws"),
 ];
@@ -119,6 +123,7 @@ impl Workload {
                 NAMES.iter().filter_map(of).collect()
             }
             "W5" => vec![(name, Law::Foraging, &[100])],
+            "W6" => vec![(name, Law::Control, &[25])],
             other => {
                 let names: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
                 return wrong(format!("unknown workload `{other}`{}", hint(other, &names)));
@@ -142,6 +147,7 @@ impl Workload {
             Law::Flocking => "abm_flocking",
             Law::Selection { .. } => "behaviour_selection",
             Law::Foraging => "competing_flocks",
+            Law::Control => "control_boids",
         }
     }
     /// Whether a run starts from the beginning each time (a trial), not from where the one before ended.
@@ -201,6 +207,7 @@ impl Workload {
             }
             Law::Selection { midpoint, growth, nearest } => self.trial(*midpoint, *growth, *nearest)?,
             Law::Foraging => self.foraging(),
+            Law::Control => self.control(),
         };
         plan.seed = SEED;
         plan.threads = threads;
@@ -315,6 +322,31 @@ impl Workload {
     }
 }
 
+impl Workload {
+    /// A group that sets out from the left of a field of ten walls, which hide what is behind them.
+    fn control<R: Scalar, const D: usize>(&self) -> WorldPlan<R, D> {
+        let at = |x: f64, y: f64| Vector(core::array::from_fn(|a| R::of([x, y].get(a).copied().unwrap_or(0.0))));
+        let columns = (self.agents as f64).sqrt().ceil().max(1.0) as usize;
+        let places = (0..self.agents).map(|k| at(-80.0 - 2.0 * (k / columns) as f64, 2.0 * (k % columns) as f64 - 4.0));
+        let start = Start {
+            position: places.collect(),
+            velocity: Some(vec![at(1.0, 0.0); self.agents]),
+            columns: BTreeMap::new(),
+        };
+        let mut group = GroupPlan::new("boids", self.model(), Values::new(), self.agents, Placement::Given(start));
+        group.sensing = Sensing::Ideal(Ideal { occlusion: Occlusion::Obstacles, ..Ideal::default() });
+        let mut plan = WorldPlan::new(Space::open(), group);
+        for k in 0..10 {
+            let draw = |slot: u32| uniform(SEED, Purpose::Environment, k, slot);
+            let (x, y, angle) = (120.0 * draw(0) - 60.0, 80.0 * draw(1) - 40.0, core::f64::consts::PI * draw(2));
+            let (along, up) = (10.0 * angle.cos(), 10.0 * angle.sin());
+            let (from, to) = (at(x - along, y - up), at(x + along, y + up));
+            plan.obstacles.push(Obstacle::new(Shape::Segment { from, to }));
+        }
+        plan
+    }
+}
+
 impl Law {
     fn usual_steps(&self, agents: usize) -> u64 {
         let agents = agents.max(1) as u64;
@@ -323,6 +355,7 @@ impl Law {
             Self::Flocking => (1_000_000 / agents).clamp(4, 100),
             Self::Selection { .. } => 6000,
             Self::Foraging => 80,
+            Self::Control => 500,
         }
     }
 }

@@ -213,6 +213,13 @@ fn obstacles_of_a_case_do_not_stop_members_but_walls_of_the_space_do() {
     });
     let found = state(&[&inside]);
     assert_eq!(found["pos"][0], serde_json::json!([0.0, 0.0]), "the move through the wall is not made");
+    // with walls in the parameters beside it, too
+    let both = changed("both.json", |case| {
+        case["space"] = serde_json::json!({ "kind": "walls", "size": [3.0, 3.5] });
+        case["state"]["vel"] = serde_json::json!([[-0.03, 0.0], [0.0, 0.03], [0.0, 0.03]]);
+        case["params"]["walls"] = serde_json::json!([[1.0, 1.0, 2.0, 1.0]]);
+    });
+    assert_eq!(state(&[&both])["pos"][0], serde_json::json!([0.0, 0.0]));
 }
 
 #[test]
@@ -225,6 +232,10 @@ fn conformance_counts_and_its_exit_code_is_the_answer() {
     let run = flockworks(&["conformance", &several, "--precision", "f32"]);
     assert_eq!((run.code, run.out.lines().last()), (Some(0), Some("3 of 3")), "{}", run.out);
     refused(&["conformance", &several, "--only", "viscido_sn"], &["viscido_sn", "did you mean `viscido_snn`"]);
+    refused(
+        &["conformance", &changed("none.json", |file| *file = serde_json::json!({ "cases": [] }))],
+        &["at least one"],
+    );
 
     let fails = |name: &str, reason: &str, change: &dyn Fn(&mut Value)| {
         let run = flockworks(&["conformance", &changed(name, change)]);

@@ -9,7 +9,7 @@ use crate::{Real, Vector};
 /// Fewer copies than this are scanned: a grid would not be faster.
 const FEW: usize = 16;
 /// Greatest reach, and greatest extent of an obstacle, in lengths of a periodic axis; bounds the images.
-const MOST_LENGTHS: f64 = 8.0;
+pub const MOST_LENGTHS: f64 = 8.0;
 
 /// When an obstacle is there, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -148,6 +148,8 @@ pub struct Obstacles<R, const D: usize> {
     list: Vec<Obstacle<R, D>>,
     periodic: [Option<R>; D],
     reach: R,
+    /// How far beyond a periodic box anything is seen.
+    sight: R,
     /// Whether any obstacle has a plan.
     planned: bool,
     /// Present offset of each obstacle from its drawn place; `None` while it is not there.
@@ -166,6 +168,7 @@ impl<R: Real, const D: usize> Default for Obstacles<R, D> {
             list: Vec::new(),
             periodic: [None; D],
             reach: R::ZERO,
+            sight: R::ZERO,
             planned: false,
             offsets: Vec::new(),
             places: Vec::new(),
@@ -179,15 +182,30 @@ impl<R: Real, const D: usize> Obstacles<R, D> {
     /// The obstacles as they are at time 0; see [`Self::advance`].
     ///
     /// `periodic` holds the length of space along each periodic axis, whose coordinates run from 0 to it. `reach`
-    /// is the distance up to which questions are to be fast, and in periodic space answered at all: the
-    /// longest of interaction ranges, moves and rays.
+    /// is the distance up to which questions are to be fast, and in periodic space answered at all, where that is not said by
+    /// [`Self::with_sight`].
     ///
     /// # Errors
     /// When a shape, plan, albedo, length or the reach breaks a rule of [`ShapeError`].
     pub fn new(list: Vec<Obstacle<R, D>>, periodic: [Option<R>; D], reach: R) -> Result<Self, ShapeError> {
+        Self::with_sight(list, periodic, reach, reach)
+    }
+
+    /// As [`Self::new`]; in periodic space questions are answered up to the distance `sight`: the longest of interaction ranges,
+    /// moves, lines of sight and rays. No less than the reach.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn with_sight(
+        list: Vec<Obstacle<R, D>>,
+        periodic: [Option<R>; D],
+        reach: R,
+        sight: R,
+    ) -> Result<Self, ShapeError> {
         if !(reach >= R::ZERO && reach.finite()) {
             return Err(ShapeError::Reach);
         }
+        let sight = sight.most(reach);
         let mut checked = Vec::with_capacity(list.len());
         for obstacle in list {
             if !obstacle.albedo.finite() {
@@ -204,7 +222,7 @@ impl<R: Real, const D: usize> Obstacles<R, D> {
                 return Err(ShapeError::PeriodicLength);
             }
             let most = length * R::of(MOST_LENGTHS);
-            if reach > most {
+            if sight > most {
                 return Err(ShapeError::Reach);
             }
             let too_long = |shape: &Shape<R, D>| {
@@ -221,6 +239,7 @@ impl<R: Real, const D: usize> Obstacles<R, D> {
             list: checked,
             periodic,
             reach,
+            sight,
             ..Self::default()
         };
         if !obstacles.advance(0.0) {
@@ -286,7 +305,7 @@ impl<R: Real, const D: usize> Obstacles<R, D> {
         for (index, (obstacle, offset)) in self.list.iter().zip(&self.offsets).enumerate() {
             let place = offset.map(|offset| obstacle.shape.moved(offset));
             if let Some(shape) = &place {
-                for by in images(shape, &self.periodic, self.reach) {
+                for by in images(shape, &self.periodic, self.sight) {
                     let shape = shape.moved(by);
                     self.copies.push(Placed::new(index as u32, obstacle.opaque, shape));
                 }

@@ -13,7 +13,7 @@ use swarm::physics::{Contact, DifferentialDrive, Met, Mobility};
 use swarm::resources::{Gain, Metabolism, ResourcePlan, Respawn};
 use swarm::selection::Perception;
 use swarm::sensing::robot::Robot;
-use swarm::sensing::scanner::Scanner;
+use swarm::sensing::scanner::{Origin, Scanner};
 use swarm::sensing::{Ideal, Occlusion};
 use swarm::{Driver, World, WorldPlan};
 
@@ -479,4 +479,103 @@ fn robots_turn_no_faster_than_they_can() {
         heading = now;
     }
     assert!((heading - 1.0).abs() < 1e-9, "five turns of a fifth of a radian towards the other");
+}
+
+#[test]
+fn across_a_seam_obstacles_stop_and_hide_as_anywhere() {
+    let wall = |x: f64| Obstacle::new(Shape::new_segment(Vector([x, 4.0]), Vector([x, 6.0])).unwrap());
+    let world = |model: &str, parameters: &[(&str, Value)], x: [f64; 2], wall_at: f64, hidden: bool| {
+        let start = given(&[[x[0], 5.0], [x[1], 5.0]], &[[0.3, 0.0], [-0.3, 0.0]]);
+        let mut group = GroupPlan::new("members", model, values(parameters), 2, start);
+        group.radius = Some(0.1);
+        group.contact = Some(Contact::Refuse);
+        if hidden {
+            group.sensing = Sensing::Ideal(Ideal { occlusion: Occlusion::Obstacles, ..Ideal::default() });
+        }
+        let mut plan = WorldPlan::new(Space::periodic([10.0, 10.0]), group);
+        plan.obstacles = vec![wall(wall_at)];
+        World::new(plan).unwrap()
+    };
+    for wall_at in [0.15, 0.95, 5.0, 9.1, 9.85] {
+        let before = (wall_at + 9.7) % 10.0;
+        let mut stopped = world("vicsek_1995", &[("speed", 0.3.into())], [before, 8.0], wall_at, false);
+        stopped.run(6);
+        let left = (wall_at - stopped.position(0)[0]).rem_euclid(10.0);
+        assert!(left < 0.31, "a wall at {wall_at} lets through: {left}");
+        let pair = [(wall_at + 8.5) % 10.0, (wall_at + 1.0) % 10.0];
+        let mut hidden = world("viscido_snn", &[("step_length", 0.001.into())], pair, wall_at, true);
+        for agent in [0, 1] {
+            assert!(
+                hidden.explain(agent).unwrap().detected.is_empty(),
+                "a wall at {wall_at} hides nothing from {agent}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_group_of_robots_associates_by_its_own_gate() {
+    let positions = |strict_first: bool| {
+        let group = |name: &str, y: f64, gate: f64| {
+            let start = given(&[[1.0, y], [2.0, y + 0.3]], &[[0.1, 0.0], [0.1, 0.05]]);
+            let parameters = values(&[("radius", 2.0.into()), ("speed", 0.1.into()), ("time_step", 0.1.into())]);
+            let mut group = GroupPlan::new(name, "vicsek_1995", parameters, 2, start);
+            (group.radius, group.contact) = (Some(0.17), Some(Contact::Free));
+            group.sensing = robot(clustered(), Some(gate));
+            group
+        };
+        let (strict, wide) = (group("strict", 1.0, 1e-6), group("wide", 30.0, 0.5));
+        let [one, other] = if strict_first { [strict, wide] } else { [wide, strict] };
+        let mut plan = WorldPlan::new(Space::open(), one);
+        plan.groups.push(other);
+        let mut world = World::new(plan).unwrap();
+        world.run(40);
+        let pair = |first: u32| [world.velocity(first), world.velocity(first + 1)];
+        if strict_first { [pair(0), pair(2)] } else { [pair(2), pair(0)] }
+    };
+    let [strict, wide] = positions(true);
+    assert_eq!(positions(false), [strict, wide]);
+    // only who associates knows velocities, and takes them
+    assert!((strict[0] - strict[1]).length() > 0.04 && (wide[0] - wide[1]).length() < 0.01, "{strict:?} {wide:?}");
+}
+
+#[test]
+fn tracks_outlive_a_seam() {
+    let velocities = |x: f64| {
+        let noise = ("noise_amplitude", 2.0.into());
+        let parameters = values(&[("radius", 2.0.into()), ("speed", 0.1.into()), ("time_step", 0.1.into()), noise]);
+        let start = given(&[[x, 5.0], [x - 0.01, 5.4]], &[[0.1, 0.0], [0.1, 0.0]]);
+        let mut group = GroupPlan::new("robots", "vicsek_1995", parameters, 2, start);
+        (group.radius, group.contact) = (Some(0.17), Some(Contact::Free));
+        group.sensing = robot(clustered(), Some(0.3));
+        let mut world = World::new(WorldPlan::new(Space::periodic([10.0, 10.0]), group)).unwrap();
+        let (mut told, mut far) = (Vec::new(), 0.0f64);
+        for _ in 0..8 {
+            world.step();
+            told.extend([world.velocity(0), world.velocity(1)]);
+            far = far.max((world.position(0)[0] - x).abs());
+        }
+        (told, far)
+    };
+    // who loses a track goes its own way for a scan; later on, rounding of readings grows
+    let ((seam, far), (middle, near)) = (velocities(9.97), velocities(4.97));
+    assert!(far > 9.0 && near < 1.0, "one of them crosses a seam");
+    for (a, b) in seam.into_iter().zip(middle) {
+        assert!((a - b).length() < 1e-4, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn lasers_see_bodies_as_wide_as_their_models_make_them() {
+    let mut robots = GroupPlan::new("robots", "viscido_snn", Values::new(), 1, given(&[[0.0, 0.0]], &[[1.0, 0.0]]));
+    robots.radius = Some(0.17);
+    robots.sensing = robot(ReadingDetection::sensor_based(), None);
+    let parameters = values(&[("rho", 3.0.into())]);
+    let wide = GroupPlan::new("wide", "control_boids", parameters, 1, given(&[[7.0, 0.0]], &[[1.0, 0.0]]));
+    let mut plan = WorldPlan::new(Space::open(), robots);
+    plan.groups.push(wide);
+    let mut world = World::new(plan).unwrap();
+    let rays = world.explain(0).unwrap().rays;
+    let hits = rays.iter().filter(|ray| matches!(ray.hit, Origin::Member(_))).count();
+    assert!(hits > 100, "{hits} of {} rays meet a body of radius 3 at 7", rays.len());
 }

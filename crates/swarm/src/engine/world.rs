@@ -18,7 +18,7 @@ use crate::resources::Resources;
 use crate::selection::{NamedSet, Perception, Reach, Rings};
 use crate::sensing::Occlusion;
 use crate::sensing::robot::Memory;
-use space::obstacles::Obstacles;
+use space::obstacles::{MOST_LENGTHS, Obstacles};
 use space::parallel::Workers;
 use space::random::{Purpose, Stream as DrawStream, unit_vector};
 use space::spelling::nearest;
@@ -180,7 +180,6 @@ where
                 declared.len() - 1
             }
         };
-        let widest = plan.groups.iter().filter_map(|g| g.radius).fold(R::ZERO, Real::most);
         let mut prepared = Vec::new();
         for group in &plan.groups {
             let laws = laws::<R, D>(group)?;
@@ -197,6 +196,8 @@ where
             }
             prepared.push((laws, own, body));
         }
+        let radii = plan.groups.iter().zip(&prepared).map(|(g, (laws, ..))| g.radius.unwrap_or(laws[0].body_radius));
+        let widest = radii.fold(R::ZERO, Real::most);
         let mut next = 0u32;
         let all: Vec<GroupRange> = plan
             .groups
@@ -254,7 +255,7 @@ where
                     return Err(in_group(
                         group,
                         format!(
-                            "its step is {} and that of the first group {dt}; all groups share one step",
+                            "its step is {} and that of the first group {dt}; all groups share one step, so give them the same `time_step`",
                             model.time_step
                         ),
                     ));
@@ -374,7 +375,18 @@ where
         let farthest = bodies.iter().fold(obstacle_reach, |far, body| far.most(body.radius)) + longest;
         let periods = plan.space.periods();
         let margin = if farthest > R::ZERO && !plan.obstacles.is_empty() { farthest } else { R::TINY };
-        let obstacles = Obstacles::new(plan.obstacles.clone(), periods, margin)
+        // across a seam one sees and moves half a period far, and a laser as far as it reports
+        let mut sight = margin;
+        if !plan.obstacles.is_empty() {
+            let lasers = groups.iter().map(|group| match &group.kernel.stages().sensing {
+                Sensing::Scanner(robot) => robot.scanner_range(),
+                Sensing::Ideal(_) => R::ZERO,
+            });
+            let periods = || periods.into_iter().flatten();
+            let farthest = periods().map(|period| period * R::HALF).chain(lasers).fold(margin, Real::most);
+            sight = periods().map(|period| period * R::of(MOST_LENGTHS)).fold(farthest, Real::least);
+        }
+        let obstacles = Obstacles::with_sight(plan.obstacles.clone(), periods, margin, sight)
             .map_err(|error| WorldError::World(format!("obstacles: {error}")))?;
         let resources = match plan.resources.clone() {
             Some(resources) => Some(Resources::new(resources, &all, find).map_err(WorldError::World)?),
@@ -411,11 +423,18 @@ where
         if !cells || delayed || !guarded {
             reach = None;
         }
-        let associated = groups.iter().find_map(|g| match &g.kernel.stages().sensing {
+        let gate_of = |g: &Group<R, D>| match &g.kernel.stages().sensing {
             Sensing::Scanner(robot) => robot.association,
             Sensing::Ideal(_) => None,
-        });
-        let memory = associated.map_or_else(Vec::new, |gate| vec![Memory::new(gate); agents]);
+        };
+        let mut memory = Vec::new();
+        if groups.iter().any(|group| gate_of(group).is_some()) {
+            for (group, range) in groups.iter().zip(&all) {
+                // nobody asks for the memory of a group that associates nothing
+                let gate = gate_of(group).unwrap_or(R::ZERO);
+                memory.extend((0..range.count).map(|_| Memory::new(gate)));
+            }
+        }
         let rough = marked && reach.is_none();
         let mut world = Self {
             compiled: Models::engine(),

@@ -21,7 +21,7 @@ parameters! {
         /// Width of the interval from which the random angle is drawn.
         noise_amplitude alias "eta": R = 0.0, "eta", "rad", NonNegative, Ours;
         /// Length of a step.
-        time_step alias "dt": R = 1.0, "Dt", "time", Positive, Paper;
+        time_step alias "dt": R = 1.0, "Dt", "time", Positive, Ours;
     }
 }
 

@@ -99,7 +99,7 @@ impl<R: Scalar> Law<R> for ControlBoids<R> {
                     D = w_h h' + w_s unit(s) + f (w_a unit(a) + w_c unit(c)) + w_o o\n\
                     h_i' = turn_toward(h_i, unit(D), theta_max);  x_i' = x_i + v h_i'",
         stages: Stages {
-            sensing: "ideal within the radius, hidden behind walls and discs",
+            sensing: "ideal within the radius; hidden behind walls and discs where the group's sensing has `occlusion`",
             detection: "ideal",
             selection: "neighbours = distance_based(0, R) within angle(alpha); too_near = those of distance below r_s",
             motion: "weighted unit vectors",

@@ -55,7 +55,7 @@ impl<R: Scalar> Law<R> for ControlSnn<R> {
                     rho_ik <= r_rho:  D = h_i + w_o o, and no step;  nobody:  D = rot(h_i, wander) + w_o o,  wander = eta N(0,1)\n\
                     h_i' = turn_toward(h_i, unit(D), theta_max);  x_i' = x_i + v h_i'",
         stages: Stages {
-            sensing: "ideal within the radius, hidden behind walls and discs",
+            sensing: "ideal within the radius; hidden behind walls and discs where the group's sensing has `occlusion`",
             detection: "ideal",
             selection: "neighbours = distance_based(0, R) within angle(alpha), of these the nearest",
             motion: "weighted unit vectors",

@@ -261,7 +261,7 @@ impl<R: Scalar, const D: usize> Perception<R, D> {
                 }
                 if *body_frame && D != 2 {
                     return Err(
-                        "bounding_box turns with the heading in two dimensions only; use frame = \"world\"".into()
+                        "bounding_box turns with the heading in two dimensions only; use axes = \"world\"".into()
                     );
                 }
                 Ok(())

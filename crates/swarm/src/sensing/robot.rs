@@ -85,7 +85,8 @@ impl<R: Scalar> Robot<R> {
         if let (Some(_), Some(memory)) = (self.association, memory) {
             let here = flat(place);
             let elapsed = memory.time.map_or(R::ZERO, |before| R::of(time - before));
-            let own = here - memory.place;
+            // the shorter way, where a seam was crossed
+            let own = flat(space.minimal(wide(here - memory.place)));
             memory.tracks.update(scratch.found.iter().map(|f| f.offset), own, elapsed);
             (memory.place, memory.time) = (here, Some(time));
             for (found, velocity) in scratch.found.iter_mut().zip(memory.tracks.velocities()) {

@@ -112,6 +112,10 @@ impl<R: Real, L: Lanes<R>, const D: usize> LaneSums<R, L> for Sums<L, D> {
     }
     #[inline(always)]
     fn split(&self, to: &mut [Sums<R, D>]) {
+        if self.used == 0 {
+            // nobody was met, and what stands there is of others
+            to.fill(Self::zero_one());
+        }
         for t in 0..self.used.min(MOST) {
             let sum = &self.terms[t];
             let mut lane = [R::ZERO; crate::motion::WIDEST];
