@@ -32,26 +32,35 @@ pub(crate) fn toner_tu_1998(now: &Plain) -> Plain {
 }
 
 pub(crate) fn gregoire_2003_vectorial(now: &Plain) -> Plain {
-    let (alpha, beta, r_hc, r_e, r_a, r_0, speed, dt) = (20.0, 0.5, 0.2, 0.5, 0.8, 1.0, 0.05, 1.0);
+    let (alpha, beta, r_0, speed, dt) = (20.0, 0.5, 1.0, 0.05, 1.0);
     each(now, |i| {
-        let (mut core, mut apart) = (false, [0.0; 2]);
-        let mut sum = now.velocity[i].map(|c| alpha * c);
-        for (j, offset, distance) in others(now, i) {
-            if distance >= r_0 {
-                continue;
-            }
-            if distance < r_hc {
-                core = true;
-                add(&mut apart, -1.0, unit(offset));
-            }
-            let force = if distance < r_a { (distance - r_e) / (4.0 * (r_a - r_e)) } else { 1.0 };
-            add(&mut sum, alpha, now.velocity[j]);
-            add(&mut sum, beta * force, unit(offset));
-        }
-        let heading = unit_or(if core { apart } else { sum }, unit(now.velocity[i]));
-        let velocity = heading.map(|c| c * speed);
+        let within = others(now, i).filter(|&(.., distance)| distance < r_0);
+        let velocity = pair_law(now, i, alpha, beta, within).map(|c| c * speed);
         (moved(now, i, velocity, dt), velocity)
     })
+}
+
+/// The heading that sums the velocities of these others and forces that keep them at a distance; away from a hard core before all.
+pub(crate) fn pair_law(
+    now: &Plain,
+    i: usize,
+    alpha: f64,
+    beta: f64,
+    others: impl IntoIterator<Item = (usize, [f64; 2], f64)>,
+) -> [f64; 2] {
+    let (r_hc, r_e, r_a) = (0.2, 0.5, 0.8);
+    let (mut core, mut apart) = (false, [0.0; 2]);
+    let mut sum = now.velocity[i].map(|c| alpha * c);
+    for (j, offset, distance) in others {
+        if distance < r_hc {
+            core = true;
+            add(&mut apart, -1.0, unit(offset));
+        }
+        let force = if distance < r_a { (distance - r_e) / (4.0 * (r_a - r_e)) } else { 1.0 };
+        add(&mut sum, alpha, now.velocity[j]);
+        add(&mut sum, beta * force, unit(offset));
+    }
+    unit_or(if core { apart } else { sum }, unit(now.velocity[i]))
 }
 
 pub(crate) fn boids_unit_heading(now: &Plain) -> Plain {

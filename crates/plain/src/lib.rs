@@ -317,12 +317,7 @@ fn couzin_2002(now: &Plain) -> Plain {
         if wanted == [0.0, 0.0] {
             wanted = heading;
         }
-        let between =
-            (heading[0] * wanted[1] - heading[1] * wanted[0]).atan2(heading[0] * wanted[0] + heading[1] * wanted[1]);
-        if between.abs() > limit && heading != [0.0; 2] {
-            let (sin, cos) = limit.copysign(between).sin_cos();
-            wanted = [heading[0] * cos - heading[1] * sin, heading[0] * sin + heading[1] * cos];
-        }
+        wanted = turned(heading, wanted, limit);
         next.velocity[i] = [speed * wanted[0], speed * wanted[1]];
         next.position[i] = [me[0] + next.velocity[i][0] * dt, me[1] + next.velocity[i][1] * dt];
     }

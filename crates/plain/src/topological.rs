@@ -1,5 +1,6 @@
 //! Laws of the nearest few.
 
+use crate::headings::pair_law;
 use crate::{Plain, add, each, length, moved, others, unit, unit_or};
 
 /// The `count` nearest others of `i`, the nearest first: the index, the offset and the distance.
@@ -28,21 +29,9 @@ pub(crate) fn ballerini_2008(now: &Plain) -> Plain {
 }
 
 pub(crate) fn camperi_2012(now: &Plain) -> Plain {
-    let (count, alpha, beta, r_hc, r_e, r_a, speed, dt) = (6, 35.0, 5.0, 0.2, 0.5, 0.8, 0.05, 1.0);
+    let (count, alpha, beta, speed, dt) = (6, 35.0, 5.0, 0.05, 1.0);
     each(now, |i| {
-        let (mut core, mut apart) = (false, [0.0; 2]);
-        let mut sum = now.velocity[i].map(|c| alpha * c);
-        for (j, offset, distance) in nearest(now, i, count) {
-            if distance < r_hc {
-                core = true;
-                add(&mut apart, -1.0, unit(offset));
-            }
-            let force = if distance < r_a { (distance - r_e) / (4.0 * (r_a - r_e)) } else { 1.0 };
-            add(&mut sum, alpha, now.velocity[j]);
-            add(&mut sum, beta * force, unit(offset));
-        }
-        let heading = unit_or(if core { apart } else { sum }, unit(now.velocity[i]));
-        let velocity = heading.map(|c| c * speed);
+        let velocity = pair_law(now, i, alpha, beta, nearest(now, i, count)).map(|c| c * speed);
         (moved(now, i, velocity, dt), velocity)
     })
 }

@@ -6,14 +6,8 @@ use core::f64::consts::{PI, TAU};
 pub(crate) fn hamilton_2d(now: &Plain) -> Plain {
     let (step, r_rho, range) = (1.0, 2.0, 10.0);
     each(now, |i| {
-        let (mut nearest, mut least) = ([0.0; 2], range);
-        for (_, offset, distance) in others(now, i) {
-            if distance < least {
-                (nearest, least) = (offset, distance);
-            }
-        }
-        let moves = least > r_rho && least < range;
-        let made = if moves { unit(nearest).map(|c| c * step) } else { [0.0; 2] };
+        let towards = nearest(others(now, i)).filter(|&(.., distance)| distance > r_rho && distance < range);
+        let made = towards.map_or([0.0; 2], |(_, offset, _)| unit(offset).map(|c| c * step));
         (moved(now, i, made, 1.0), made)
     })
 }
