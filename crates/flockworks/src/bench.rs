@@ -265,7 +265,6 @@ struct Subject<'a> {
     workload: &'a Workload,
     precision: Precision,
     threads: usize,
-    world: Box<dyn Running>,
     /// Runs within a measurement.
     trials: u32,
     wall: Vec<f64>,
@@ -283,42 +282,48 @@ impl<'a> Subject<'a> {
         let trial = start.elapsed().as_secs_f64() * workload.steps as f64 / warm_up.max(1) as f64;
         let trials = (SHORTEST / trial.max(1e-6)).ceil().clamp(1.0, 1000.0) as u32;
         let (wall, cpu, neighbours) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { workload, precision, threads, world, trials, wall, cpu, neighbours })
+        Ok(Self { workload, precision, threads, trials, wall, cpu, neighbours })
+    }
+    /// A world where a measurement begins, always in the same state: rows that differ in threads alone have the same neighbours.
+    fn begun(&self) -> Result<Box<dyn Running>, Fault> {
+        let mut world = self.workload.world(self.precision, self.threads)?;
+        if !self.workload.is_trial() {
+            world.run(self.workload.steps);
+        }
+        Ok(world)
     }
     fn measure(&mut self) -> Result<(), Fault> {
         let steps = self.workload.steps;
         let every = (self.workload.agents / 200).max(1);
-        let (mut wall, mut cpu) = (0.0, Some(0.0));
+        let (mut wall, mut cpu, mut neighbours) = (0.0, Some(0.0), 0.0);
         for _ in 0..self.trials {
-            // always from the same state, or rows that differ in threads alone would have other neighbours
-            self.world = self.workload.world(self.precision, self.threads)?;
-            if !self.workload.is_trial() {
-                self.world.run(steps);
-            }
+            let mut world = self.begun()?;
             let (before, start) = (processor_time(), Instant::now());
-            self.world.run(steps);
+            world.run(steps);
             wall += start.elapsed().as_secs_f64();
             cpu = match (cpu, before, processor_time()) {
                 (Some(sum), Some(before), Some(after)) => Some(sum + (after - before).max(0.0)),
                 _ => None,
             };
-        }
-        // neighbours are counted a few times along a run of its own, so that counting disturbs nothing that is measured
-        let parts = if self.workload.is_trial() { steps.clamp(1, 8) } else { 1 };
-        let mut neighbours = 0.0;
-        if self.workload.is_trial() {
-            self.world = self.workload.world(self.precision, self.threads)?;
-        }
-        for part in 0..parts {
-            if self.workload.is_trial() {
-                self.world.run(steps * (part + 1) / parts - steps * part / parts);
+            if !self.workload.is_trial() {
+                neighbours = world.mean_neighbours(every);
             }
-            neighbours += self.world.mean_neighbours(every);
+        }
+        if self.workload.is_trial() {
+            // counted a few times along a run of its own, so that counting disturbs nothing that is measured
+            let parts = steps.clamp(1, 8);
+            let mut world = self.begun()?;
+            neighbours = 0.0;
+            for part in 0..parts {
+                world.run(steps * (part + 1) / parts - steps * part / parts);
+                neighbours += world.mean_neighbours(every);
+            }
+            neighbours /= parts as f64;
         }
         let trials = f64::from(self.trials);
         self.wall.push(wall / trials);
         self.cpu.push(cpu.map(|cpu| cpu / trials));
-        self.neighbours.push(neighbours / parts as f64);
+        self.neighbours.push(neighbours);
         Ok(())
     }
     fn row(&self) -> Row {
