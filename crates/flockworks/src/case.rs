@@ -51,7 +51,11 @@ pub fn split(file: &Json) -> Result<Cases<'_>, Fault> {
     let list = match root.get("cases")? {
         Some(cases) => {
             root.only(&["tolerance", "note", "cases"])?;
-            cases.list()?
+            let list = cases.list()?;
+            if list.is_empty() {
+                return wrong("cases: the list is empty; expected at least one case");
+            }
+            list
         }
         None if object.contains_key("model") => vec![root],
         None => {
