@@ -233,6 +233,14 @@ impl Case {
     fn read_state(&mut self, at: &At<'_>) -> Result<(), Fault> {
         let declared = (self.entry.columns)();
         let agents = self.agents();
+        if let Bounds::Walls(size) = &self.bounds {
+            for (k, place) in self.position.iter().enumerate() {
+                if let Some(a) = (0..size.len()).find(|&a| !(0.0..=size[a]).contains(&place[a])) {
+                    let (found, end, at) = (place[a], size[a], at.below("pos"));
+                    return wrong(format!("{at}[{k}][{a}]: the walls of this axis are at 0 and {end}, found {found}"));
+                }
+            }
+        }
         for (key, value) in at.entries()? {
             match key {
                 "pos" => continue,

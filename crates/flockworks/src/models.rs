@@ -5,6 +5,7 @@ use crate::fault::{Fault, wrong};
 use crate::table::Table;
 use crate::taxonomy::{Classification, Condition, conditions, meets, rows_of};
 use clap::{Args, ValueEnum};
+use lab::scenario::agents::{default_in_files, in_radians, unit_in_files};
 use serde_json::{Value as Json, json};
 use space::{Column, ColumnKind};
 use std::io::Write;
@@ -166,6 +167,28 @@ pub(crate) fn json_of(value: &Value) -> Json {
     }
 }
 
+/// The unit of a parameter, and that of a file where it is another.
+fn unit(parameter: &Descriptor) -> String {
+    if in_radians(parameter) {
+        format!("{}, in files {}", parameter.unit, unit_in_files(parameter))
+    } else {
+        parameter.unit.to_owned()
+    }
+}
+
+/// The default of a parameter in a file, where angles have another unit there.
+fn in_files(parameter: &Descriptor) -> Option<Value> {
+    let default = default_in_files(parameter);
+    (in_radians(parameter) && default != parameter.default).then(|| match default {
+        Value::Number(degrees) => Value::Number((1e4 * degrees).round() / 1e4),
+        other => other,
+    })
+}
+
+/// How obstacles are given to a law that looks at them.
+const OBSTACLES: &str = "In a scenario they are `obstacle`s and the walls of the space; in a case they stand among the parameters: \
+     `walls` (from, to: [x, y, x, y]), `discs` or `spheres` (centre and radius: [x, y, r]), `planes` (a point and a normal).";
+
 fn kind(column: &Column) -> String {
     match column.kind {
         ColumnKind::Quantity => "quantity".into(),
@@ -229,9 +252,9 @@ pub(crate) fn parameters_table(parameters: &[Descriptor]) -> Table {
             p.name.into(),
             p.alias.unwrap_or("-").into(),
             p.symbol.into(),
-            p.unit.into(),
+            unit(p),
             takes(p),
-            p.default.to_string(),
+            in_files(p).map_or_else(|| p.default.to_string(), |told| format!("{}, in files {told}", p.default)),
             p.origin.word().into(),
             p.about.trim().into(),
         ]);
@@ -296,6 +319,7 @@ fn card_text(entry: &Entry) -> String {
     part("Stages", rows(&stages(entry).into_iter().map(stage).collect::<Vec<_>>()));
     let body = card_parameters(&(entry.parameters)());
     part("Parameters", if body.is_empty() { "  none\n".into() } else { body });
+    part("Obstacles", if card.stages.obstacles.is_empty() { String::new() } else { wrapped(OBSTACLES, 2) });
     let columns = columns_table((entry.columns)());
     part("State columns", if columns.is_empty() { String::new() } else { indented(&columns.text()) });
     let random: Vec<(&str, String)> = card.random.iter().map(|q| (q.name, q.about.to_owned())).collect();
@@ -315,7 +339,8 @@ pub(crate) fn card_parameters(parameters: &[Descriptor]) -> String {
         let alias = p.alias.map_or_else(String::new, |alias| format!(" (or {alias})"));
         let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
         let symbol = if p.symbol == "-" { String::new() } else { format!(", symbol {}", p.symbol) };
-        body += &format!("  {}{alias} = {}{unit}{symbol}; {}\n", p.name, p.default, p.origin.word());
+        let told = in_files(p).map_or_else(String::new, |told| format!(" (in files {told} {})", unit_in_files(p)));
+        body += &format!("  {}{alias} = {}{unit}{told}{symbol}; {}\n", p.name, p.default, p.origin.word());
         body += &wrapped(&format!("{} {}.", p.about.trim(), capital(&takes(p))), 6);
     }
     body
@@ -344,6 +369,7 @@ fn card_markdown(entry: &Entry) -> String {
     part("Stages", &table.markdown());
     let parameters = parameters_table(&(entry.parameters)());
     part("Parameters", &if parameters.is_empty() { "None.".into() } else { parameters.markdown() });
+    part("Obstacles", if card.stages.obstacles.is_empty() { "" } else { OBSTACLES });
     let columns = columns_table((entry.columns)());
     part("State columns", &if columns.is_empty() { String::new() } else { columns.markdown() });
     let mut table = Table::new(&["name", "distribution"]);
@@ -374,7 +400,8 @@ fn card_json(entry: &Entry) -> Json {
         json!({
             "name": p.name, "alias": p.alias, "symbol": p.symbol, "unit": p.unit, "takes": p.takes.to_string(),
             "range": p.range.to_string(), "low": low, "high": high, "low_included": p.range != Range::Positive,
-            "default": json_of(&p.default), "origin": p.origin.word(), "about": p.about.trim(),
+            "default": json_of(&p.default), "unit_in_files": unit_in_files(&p),
+            "default_in_files": json_of(&default_in_files(&p)), "origin": p.origin.word(), "about": p.about.trim(),
         })
     };
     let column = |column: &Column| {

@@ -14,6 +14,10 @@
 //! filter, then doubled precision, then expansions). So the answer is a function of the *set* of offsets: it depends
 //! neither on the order of the members nor on the sets the search below tries on its way.
 //!
+//! **Periodic axes.** Copies of everyone stand a period away. Nearer to the origin than to its own copies are places at most half
+//! a period from it along each such axis; at such a place, the nearest copy of a member whose offset is a minimum image is at most
+//! one period from that image. So one copy on either side, of the others and of the origin itself, is exact.
+//!
 //! **Ties.** Where four or more members lie on one circle, cells may touch in a point. An edge of length zero is no
 //! edge here: the diagonals of a square lattice are not neighbours.
 
@@ -67,6 +71,8 @@ pub struct Scratch {
     around: Vec<Site>,
     /// Those of them whose inverses stick out of the hull.
     rest: Vec<Site>,
+    /// The squared distance beyond which nobody is a neighbour.
+    reach: f64,
 }
 
 /// Indices (into `offsets`) of the members whose Voronoi cell shares an edge with that of the member at the origin.
@@ -103,6 +109,48 @@ pub fn neighbours<R: Real, const D: usize>(
         }
         _ => return Err(VoronoiError::Dimension),
     }
+    Ok(())
+}
+
+/// As [`neighbours`], in a space in which axes close on themselves after the given periods (units of the offsets). Offsets along
+/// those axes are minimum images. A member is a neighbour where any of its copies shares an edge with the origin; `offsets` and
+/// `out` are as there.
+///
+/// # Errors
+/// As [`neighbours`].
+pub fn neighbours_around<R: Real, const D: usize>(
+    offsets: &[Vector<R, D>],
+    periods: &[Option<R>; D],
+    scratch: &mut Scratch,
+    out: &mut Vec<u32>,
+) -> Result<(), VoronoiError> {
+    scratch.reach = f64::INFINITY;
+    neighbours(offsets, scratch, out)?;
+    // a copy that is no minimum image is half a period away at least, less what is rounded
+    let half = periods.iter().flatten().map(|period| 0.499 * period.to_f64()).fold(f64::INFINITY, f64::min);
+    if offsets.is_empty() || scratch.reach < half * half {
+        return Ok(());
+    }
+    let members = offsets.len();
+    let mut copies = offsets.to_vec();
+    let mut own = Vec::new();
+    for shift in 1..3_u32.pow(D as u32) {
+        // digits to the base of three: here, a period on, a period back
+        let digit = |a: usize| [R::ZERO, R::ONE, -R::ONE][(shift / 3_u32.pow(a as u32) % 3) as usize];
+        if (0..D).any(|a| digit(a) != R::ZERO && periods[a].is_none()) {
+            continue;
+        }
+        let shift = Vector(core::array::from_fn(|a| digit(a) * periods[a].unwrap_or(R::ZERO)));
+        copies.extend(offsets.iter().map(|&offset| offset + shift));
+        own.push(shift);
+    }
+    let others = copies.len();
+    copies.append(&mut own);
+    neighbours(&copies, scratch, out)?;
+    out.retain(|&copy| (copy as usize) < others);
+    out.iter_mut().for_each(|copy| *copy %= members as u32);
+    out.sort_unstable();
+    out.dedup();
     Ok(())
 }
 
@@ -233,7 +281,7 @@ fn build<R: Real, const D: usize>(
     scratch: &mut Scratch,
     coincident: impl FnMut(u32),
 ) -> bool {
-    let Scratch { near, star, edges, around, rest } = scratch;
+    let Scratch { near, star, edges, around, rest, reach: farthest } = scratch;
     let mut size = FIRST;
     let mut complete = nearest(sites(offsets, coincident), size, near);
     let mut bounded = turn_around(near, star);
@@ -259,6 +307,7 @@ fn build<R: Real, const D: usize>(
         along_line(around, star);
         bounded = false;
     }
+    *farthest = sides(star, bounded, edges);
     bounded
 }
 
@@ -534,6 +583,67 @@ mod tests {
     fn area(offsets: &[[f64; 2]]) -> Option<f64> {
         let offsets: Vec<Vector<f64, 2>> = offsets.iter().map(|o| Vector::of(o)).collect();
         cell_area(&offsets, &mut Scratch::default())
+    }
+
+    /// Neighbours in a space that closes on itself, from the copies two periods far: more than can matter.
+    fn around(positions: &[[f64; 2]], me: usize, periods: [Option<f64>; 2]) -> Vec<usize> {
+        let mut others = Vec::new();
+        let shifts = |a: usize| match periods[a] {
+            Some(period) => (-2..=2).map(|k| f64::from(k) * period).collect(),
+            None => vec![0.0],
+        };
+        for (j, there) in positions.iter().enumerate() {
+            for x in shifts(0) {
+                for y in shifts(1) {
+                    if (j, x, y) != (me, 0.0, 0.0) {
+                        others.push((j, Vector([there[0] - positions[me][0] + x, there[1] - positions[me][1] + y])));
+                    }
+                }
+            }
+        }
+        let offsets: Vec<Vector<f64, 2>> = others.iter().map(|(_, offset)| *offset).collect();
+        let mut out = Vec::new();
+        neighbours(&offsets, &mut Scratch::default(), &mut out).unwrap();
+        let mut found: Vec<usize> = out.iter().map(|&k| others[k as usize].0).filter(|&j| j != me).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    #[test]
+    fn copies_in_periodic_space_are_neighbours_too() {
+        let mut numbers = Numbers(11);
+        let mut differ = 0;
+        for trial in 0..400 {
+            let count = 1 + trial % 24;
+            let positions: Positions = (0..count).map(|_| [8.0 * numbers.next(), 2.0 * numbers.next()]).collect();
+            for periods in [[Some(8.0), Some(2.0)], [Some(8.0), None], [None, Some(2.0)]] {
+                for me in 0..count {
+                    let (others, mut offsets) = offsets::<f64>(&positions, me);
+                    for offset in &mut offsets {
+                        for a in 0..2 {
+                            if let Some(period) = periods[a] {
+                                offset.0[a] -= period * (offset.0[a] / period).round();
+                            }
+                        }
+                    }
+                    let (mut scratch, mut out) = (Scratch::default(), Vec::new());
+                    neighbours_around(&offsets, &periods, &mut scratch, &mut out).unwrap();
+                    let found: Vec<usize> = out.iter().map(|&k| others[k as usize]).collect();
+                    assert_eq!(found, around(&positions, me, periods), "{positions:?} {me} {periods:?}");
+                    neighbours(&offsets, &mut scratch, &mut out).unwrap();
+                    differ += usize::from(out.len() != found.len());
+                }
+            }
+        }
+        assert!(differ > 100, "minimum images alone are not enough: {differ}");
+        // on a ring the last is beside the first
+        let ring: Vec<Vector<f64, 1>> = [0.4, 0.3, -0.2].map(|x| Vector([x])).to_vec();
+        let mut out = Vec::new();
+        neighbours_around(&ring, &[Some(1.0)], &mut Scratch::default(), &mut out).unwrap();
+        assert_eq!(out, [1, 2]);
+        neighbours_around(&ring[..2], &[Some(1.0)], &mut Scratch::default(), &mut out).unwrap();
+        assert_eq!(out, [0, 1]);
     }
 
     fn symmetric(neighbours: &[Vec<usize>]) -> bool {

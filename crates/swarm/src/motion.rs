@@ -472,16 +472,20 @@ impl<R: Real, const D: usize> Percepts<'_, R, D> {
     /// The nearest member of a named set; ties go to the lower id (to the earlier reading, where ids are readings).
     #[inline]
     pub fn nearest(&self, set: usize) -> Option<usize> {
-        let mut best: Option<usize> = None;
-        for k in self.set(set) {
-            let better = best.is_none_or(|b| {
-                self.squared[k] < self.squared[b] || (self.squared[k] == self.squared[b] && self.id(k) < self.id(b))
-            });
-            if better {
-                best = Some(k);
+        // the distance first, several at a time
+        const TOGETHER: usize = 8;
+        let distance = |k: usize| if self.is_in(k, set) { self.squared[k] } else { R::INFINITY };
+        let mut least = [R::INFINITY; TOGETHER];
+        let whole = self.len() / TOGETHER * TOGETHER;
+        for first in (0..whole).step_by(TOGETHER) {
+            for l in 0..TOGETHER {
+                least[l] = distance(first + l).least(least[l]);
             }
         }
-        best
+        let rest = (whole..self.len()).map(distance);
+        let least = least.into_iter().chain(rest).fold(R::INFINITY, R::least);
+        let nearest = self.set(set).filter(|&k| self.squared[k] <= least);
+        nearest.min_by_key(|&k| self.id(k))
     }
 }
 

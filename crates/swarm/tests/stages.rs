@@ -6,7 +6,7 @@ use space::shape::Shape;
 use space::{Space, Vector};
 use swarm::detection::readings::{Clustering, Matching, ReadingDetection};
 use swarm::engine::Checkpoint;
-use swarm::engine::{Clock, GroupPlan, IndexChoice, Order, Phase, Placement, Sensing, Start};
+use swarm::engine::{Clock, ClockPlan, GroupPlan, IndexChoice, ObstaclePlan, Order, Phase, Placement, Sensing, Start};
 use swarm::models::LIST;
 use swarm::parameters::{Value, Values};
 use swarm::physics::{Contact, DifferentialDrive, Met, Mobility};
@@ -578,4 +578,202 @@ fn lasers_see_bodies_as_wide_as_their_models_make_them() {
     let rays = world.explain(0).unwrap().rays;
     let hits = rays.iter().filter(|ray| matches!(ray.hit, Origin::Member(_))).count();
     assert!(hits > 100, "{hits} of {} rays meet a body of radius 3 at 7", rays.len());
+}
+
+/// A law that attracts and aligns, beside a wall: with the wall as a virtual member it moves as it does beside a real one there.
+#[test]
+fn obstacles_as_virtual_members_act_as_members_do() {
+    let (place, velocity) = ([2.0, 3.0], [0.3, -0.4]);
+    let wall = Obstacle::new(Shape::new_segment(Vector([4.0, -10.0]), Vector([4.0, 10.0])).unwrap());
+    let disc = Obstacle::new(Shape::new_ball(Vector([2.0, 0.0]), 1.0).unwrap());
+    let world = |obstacles: Vec<Obstacle<f64, 2>>, told: ObstaclePlan<f64>, others: &[([f64; 2], [f64; 2])]| {
+        let group = |name: &str, at: &[[f64; 2]], going: &[[f64; 2]]| {
+            let parameters = values(&[("turning_rate", 1800.0_f64.into())]);
+            let mut group = GroupPlan::new(name, "couzin_2002", parameters, at.len(), given(at, going));
+            group.obstacles = told;
+            group.contact = Some(Contact::Free);
+            group
+        };
+        let mut plan = WorldPlan::new(Space::open(), group("one", &[place], &[velocity]));
+        let (at, going): (Vec<_>, Vec<_>) = others.iter().copied().unzip();
+        plan.groups.push(group("others", &at, &going));
+        plan.obstacles = obstacles;
+        plan.seed = 3;
+        let mut world = World::new(plan).unwrap();
+        world.step();
+        world.velocity(0)
+    };
+    let members = ObstaclePlan { within: Some(5.0), nearest: None, members: true };
+    let alone = world(vec![wall.clone()], ObstaclePlan::default(), &[]);
+    // along the wall only its own motion along it is left
+    let beside_wall = world(vec![wall.clone()], members, &[]);
+    let member = ([4.0, 3.0], [0.0, -0.4]);
+    assert_eq!(beside_wall, world(Vec::new(), ObstaclePlan::default(), &[member]));
+    assert_ne!(beside_wall, alone);
+    // about a disc of radius 1 two lengths away, a third of it
+    let round = ([2.0, 1.0], [0.1, 0.0]);
+    let near = world(vec![disc.clone()], members, &[]);
+    let expected = world(Vec::new(), ObstaclePlan::default(), &[round]);
+    assert!((near - expected).length() < 1e-12 && near != alone, "{near:?} {expected:?}");
+    // beside real ones, of whom some are not seen
+    let others =
+        [([-9.0, 3.0], [1.0, 1.0]), ([3.0, 2.0], [0.0, 1.0]), ([2.0, 30.0], [1.0, 0.0]), ([1.0, 1.0], [1.0, 0.2])];
+    let among = world(vec![wall.clone()], members, &others);
+    let all = [&others[..], &[member]].concat();
+    assert!((among - world(Vec::new(), ObstaclePlan::default(), &all)).length() < 1e-12);
+    assert_ne!(among, world(vec![wall.clone()], ObstaclePlan::default(), &others));
+    // the nearest alone, where two are as near: the one met first; of unlike ones, the nearer
+    let one = ObstaclePlan { nearest: Some(1), ..members };
+    let far = Obstacle::new(Shape::new_ball(Vector([2.0, -1.0]), 1.0).unwrap());
+    assert_eq!(world(vec![far.clone(), wall.clone()], one, &[]), beside_wall);
+    assert_ne!(world(vec![far, wall], members, &[]), beside_wall);
+}
+
+#[test]
+fn obstacles_handed_on_are_the_nearest_and_what_cannot_be_is_refused() {
+    let discs = |radius: f64| {
+        (0..8)
+            .map(|k| {
+                let (sin, cos) = f64::from(k).sin_cos();
+                let at = Vector([cos, sin]) * (2.0 + 0.3 * f64::from(k)) + Vector([5.0, 5.0]);
+                Obstacle::new(Shape::new_ball(at, radius).unwrap())
+            })
+            .collect::<Vec<_>>()
+    };
+    let seen = |told: ObstaclePlan<f64>, model: &str| {
+        let mut group = GroupPlan::new("g", model, Values::new(), 1, given(&[[5.0, 5.0]], &[[0.5, 0.0]]));
+        group.obstacles = told;
+        let mut plan = WorldPlan::new(Space::open(), group);
+        plan.obstacles = discs(0.25);
+        let mut world = World::new(plan).map_err(|error| error.to_string())?;
+        let mut distances: Vec<f64> = world.explain(0).unwrap().obstacles.iter().map(|near| near.distance).collect();
+        distances.sort_by(f64::total_cmp);
+        Ok::<_, String>(distances)
+    };
+    let told = |within, nearest| ObstaclePlan { within, nearest, members: false };
+    let all = seen(told(None, None), "control_boids").unwrap();
+    assert_eq!(all.len(), 8);
+    assert_eq!(seen(told(None, Some(3)), "control_boids").unwrap(), all[..3]);
+    assert_eq!(seen(told(Some(2.6), None), "control_boids").unwrap(), all[..all.partition_point(|&d| d < 2.6)]);
+    assert_eq!(seen(told(Some(2.6), Some(1)), "vicsek_1995").unwrap(), all[..1]);
+    let members = ObstaclePlan { within: None, nearest: None, members: true };
+    for (told, model, says) in [
+        (told(Some(0.0), None), "vicsek_1995", "within must be more than 0"),
+        (told(None, Some(0)), "vicsek_1995", "nearest must be 1 or more"),
+        (members, "vicsek_1995", "looks at no obstacles; say within which distance"),
+        (ObstaclePlan { within: Some(1.0), ..members }, "tanner_2003_fixed", "who the others are"),
+        (ObstaclePlan { within: Some(1.0), ..members }, "szabo_2008", "state of the others"),
+    ] {
+        let refused = seen(told, model).unwrap_err();
+        assert!(refused.contains(says), "{refused}");
+    }
+}
+
+/// Whoever stands somewhat beyond the reach may seem to be inside it, as whoever stands inside may seem to be beyond.
+#[test]
+fn errors_of_distances_go_both_ways() {
+    let share = |distance: f64| {
+        let mut group = GroupPlan::new(
+            "pair",
+            "couzin_2002",
+            Values::new(),
+            2,
+            given(&[[0.0, 0.0], [distance, 0.0]], &[[1.0, 0.0]; 2]),
+        );
+        group.sensing = Sensing::Ideal(Ideal {
+            noise: swarm::sensing::SensingNoise { distance: 0.1, direction: 0.0, heading: 0.0, miss: 0.0 },
+            ..Ideal::default()
+        });
+        let mut seen = 0;
+        for seed in 0..400 {
+            let mut plan = WorldPlan::new(Space::open(), group.clone());
+            plan.seed = seed;
+            seen += World::new(plan).unwrap().explain(0).unwrap().detected.len();
+        }
+        seen as f64 / 400.0
+    };
+    // the zone of attraction ends at 14 here; one standard deviation beyond it a sixth is seen, one inside five
+    let reach = {
+        let entry = LIST.iter().find(|entry| entry.card.id == "couzin_2002").unwrap();
+        let Value::Number(reach) =
+            (entry.parameters)().iter().find(|d| d.name == "attraction_radius").unwrap().default.clone()
+        else {
+            unreachable!("a number")
+        };
+        reach
+    };
+    let (outside, inside) = (share(reach / 0.9), share(reach / 1.1));
+    assert!((outside - 0.159).abs() < 0.06 && (inside - 0.841).abs() < 0.06, "{outside} {inside}");
+    assert_eq!((share(reach * 2.0), share(reach * 0.5)), (0.0, 1.0));
+}
+
+/// A member seen for the first time is taken to move as oneself: it changes no velocity that follows from differences.
+#[test]
+fn on_first_sight_a_member_seems_to_move_as_oneself() {
+    let at = [[2.0, 2.0], [3.0, 2.0]];
+    let mut group = GroupPlan::new(
+        "robots",
+        "cucker_smale_2007",
+        values(&[("time_step", 0.1.into())]),
+        2,
+        given(&at, &[[0.0, 0.2], [0.0, -0.1]]),
+    );
+    group.sensing = robot(clustered(), Some(0.3));
+    group.radius = Some(0.17);
+    let mut world = World::new(WorldPlan::new(Space::open(), group)).unwrap();
+    let before = world.velocity(0);
+    assert_eq!(world.explain(0).unwrap().detected.len(), 1);
+    world.step();
+    assert_eq!(world.velocity(0), before);
+    world.step();
+    assert!(world.velocity(0)[1] < before[1], "then it knows: {:?}", world.velocity(0));
+}
+
+/// Members on clocks of their own decide as often as these say, from their own phase on.
+#[test]
+fn agents_have_clocks_of_their_own() {
+    let decisions = |clocks: ClockPlan| {
+        let mut group =
+            GroupPlan::new("g", "control_random", Values::new(), 3, given(&[[0.0, 0.0]; 3], &[[1.0, 0.0]; 3]));
+        group.clocks = clocks;
+        let mut plan = WorldPlan::new(Space::open(), group);
+        plan.driver = Driver::Asynchronous {
+            tick: 0.01,
+            period: 0.1,
+            phase: Phase::Together,
+            clock: Clock::Regular { jitter: 0.0 },
+            delay: 0.0,
+        };
+        let mut world = World::<f64, 2>::new(plan).map_err(|error| error.to_string())?;
+        let (mut count, mut first) = ([0; 3], [None; 3]);
+        for tick in 0..300 {
+            let before = [0, 1, 2].map(|id| world.velocity(id));
+            world.step();
+            for id in 0..3 {
+                if world.velocity(id as u32) != before[id] {
+                    count[id] += 1;
+                    first[id].get_or_insert(tick);
+                }
+            }
+        }
+        Ok::<_, String>((count, first.map(Option::unwrap)))
+    };
+    assert_eq!(decisions(ClockPlan::default()), Ok(([30; 3], [0; 3])));
+    let own = ClockPlan { period: vec![0.1, 0.2, 0.5], phase: vec![0.0, 0.05, 0.3], jitter: Vec::new() };
+    assert_eq!(decisions(own.clone()), Ok(([30, 15, 6], [0, 5, 30])));
+    let uneven = decisions(ClockPlan { jitter: vec![0.0, 0.5, 0.9], ..own.clone() }).unwrap();
+    assert_eq!((uneven.0[0], uneven.1), (30, [0, 5, 30]));
+    for (wrong, says) in [
+        (ClockPlan { period: vec![0.1], ..ClockPlan::default() }, "1 periods for 3 members"),
+        (ClockPlan { period: vec![0.001; 3], ..ClockPlan::default() }, "shorter than a tick"),
+        (ClockPlan { phase: vec![-1.0; 3], ..ClockPlan::default() }, "phases must be 0 or more"),
+        (ClockPlan { jitter: vec![1.0; 3], ..ClockPlan::default() }, "jitters must be from 0 to below 1"),
+    ] {
+        let refused = decisions(wrong).unwrap_err();
+        assert!(refused.contains(says), "{refused}");
+    }
+    let mut group = GroupPlan::new("g", "vicsek_1995", Values::new(), 3, given(&[[0.0, 0.0]; 3], &[[1.0, 0.0]; 3]));
+    group.clocks = own;
+    let refused = World::new(WorldPlan::new(Space::open(), group)).err().unwrap().to_string();
+    assert!(refused.contains("asynchronous driver alone"), "{refused}");
 }

@@ -6,6 +6,7 @@ use crate::file::{Anything, Desk, Form, Named, Node, Rule, Tree};
 use crate::{form, tagged, words};
 use space::{Real, Vector};
 use swarm::adaptation::Adaptation;
+use swarm::engine::ClockPlan;
 use swarm::parameters::Values;
 use swarm::{pace, stimulus};
 
@@ -238,21 +239,44 @@ impl Adapt {
 }
 
 form! {
-    /// Decisions now and then; in between, the heading is held.
+    /// Decisions now and then; in between, the heading is held. Under an asynchronous driver, clocks that differ from the driver's;
+    /// in between, the last decision is carried out. For all, a list with one for each member, or a distribution.
     pub struct Decides {
-        /// Time between two decisions, rounded to steps: for all, a list with one for each member, or a distribution.
+        /// Time between two decisions: rounded to steps, or under an asynchronous driver the period of the clock.
         every: PerMember = need, "time", Positive;
+        /// Time of the first decision, under an asynchronous driver; left out, as the driver says.
+        phase: Option<PerMember> = none, "time", NonNegative;
+        /// Largest deviation from the period, as a share of it, under an asynchronous driver; left out, as the driver says.
+        jitter: Option<PerMember> = none, "1", Within(0.0, 0.999);
     }
 }
 
 impl Decides {
-    /// Steps between two decisions of each member.
-    pub(super) fn resolved(&self, step: f64, count: usize, seed: u64, first: u32) -> Result<Vec<u64>, Wrong> {
-        let values = self
-            .every
-            .values(count, seed, "decides", first)
-            .map_err(|found| Wrong::new("every", format!("{found} intervals for {count} members"), "one for each"))?;
-        Ok(values.iter().map(|time| (time / step).round().clamp(1.0, 1e15) as u64).collect())
+    /// Times between two decisions of each member.
+    fn times(&self, count: usize, seed: u64, first: u32) -> Result<Vec<f64>, Wrong> {
+        let wrong = |found| Wrong::new("every", format!("{found} intervals for {count} members"), "one for each");
+        self.every.values(count, seed, "decides", first).map_err(wrong)
+    }
+    /// Steps between two decisions of each member, where all have one step.
+    pub(super) fn intervals(&self, step: f64, count: usize, seed: u64, first: u32) -> Result<Vec<u64>, Wrong> {
+        for (key, given) in [("phase", &self.phase), ("jitter", &self.jitter)] {
+            if given.is_some() {
+                let what = format!("`{key}` is one of a clock, and there are none under this driver");
+                return Err(Wrong::new(key, what, "`time.driver.asynchronous`, or leave it out"));
+            }
+        }
+        let times = self.times(count, seed, first)?;
+        Ok(times.iter().map(|time| (time / step).round().clamp(1.0, 1e15) as u64).collect())
+    }
+    /// The clocks of each member.
+    pub(super) fn clocks(&self, count: usize, seed: u64, first: u32) -> Result<ClockPlan, Wrong> {
+        let all = |key: &str, given: &Option<PerMember>| {
+            let Some(given) = given else { return Ok(Vec::new()) };
+            let wrong = |found| Wrong::new(key, format!("{found} values for {count} members"), "one for each");
+            given.values(count, seed, &format!("decides.{key}"), first).map_err(wrong)
+        };
+        let (phase, jitter) = (all("phase", &self.phase)?, all("jitter", &self.jitter)?);
+        Ok(ClockPlan { period: self.times(count, seed, first)?, phase, jitter })
     }
 }
 
@@ -357,6 +381,39 @@ one_of = { nearest = 5, weights = { inverse_square = {} } }
     }
 
     #[test]
+    fn clocks_and_obstacles_of_a_group_are_its_own() {
+        let text = FILE
+            .replacen(
+                "[group.fish.decides]",
+                "[group.fish.obstacles]\nwithin = 9\nnearest = 2\nmembers = true\n[group.fish.decides]",
+                1,
+            )
+            .replacen(
+                "every = { uniform = [0.1, 0.5] }",
+                "every = { uniform = [0.1, 0.5] }\nphase = 0.3\njitter = 0.05",
+                1,
+            );
+        let clocks = ["time.driver={ asynchronous = { tick = 0.02, period = 0.1 } }".to_owned()];
+        let read = build::read("file", &text, &clocks).unwrap();
+        let mut world = build::world::<f64, 3>(&read.scenario, 5, 1).unwrap();
+        world.run(100);
+        assert!(world.frame().finite());
+        let schedule = build::schedule(&read.scenario, false).unwrap();
+        let told = describe::methods(&read.scenario, &schedule, 5).join(" ");
+        for words in [
+            "clocks had a period of {\"uniform\":[0.1,0.5]}",
+            "phases of 0.3, jitters of 0.05",
+            "the 2 nearest obstacles and walls within 9",
+            "took them for members",
+        ] {
+            assert!(told.contains(words), "{words} is missing in: {told}");
+        }
+        let short = build::read("file", &text.replacen("phase = 0.3", "phase = [0.3, 0.1]", 1), &clocks);
+        let problems = short.expect_err("two phases").to_string();
+        assert!(problems.contains("2 values for 30 members"), "{problems}");
+    }
+
+    #[test]
     fn what_is_wrong_is_told_at_its_place() {
         for (from, to, needle) in [
             ("up = \"lamp\"", "up = \"lamb\"", "did you mean `lamp`?"),
@@ -368,6 +425,9 @@ one_of = { nearest = 5, weights = { inverse_square = {} } }
             ("to = { growth = 4 }", "to = { growth = { normal = [4, 1] } }", "the same for all members"),
             ("at = [70, 40, 40]", "at = [70, 40]", "2 coordinates in a space of 3 dimensions"),
             ("every = { uniform = [0.1, 0.5] }", "every = [0.1, 0.5]", "2 intervals for 30 members"),
+            ("every = { uniform = [0.1, 0.5] }", "every = 0.5\njitter = 0.1", "none under this driver"),
+            ("[group.fish.adapt]", "[group.fish.obstacles]\nnearest = 0\n[group.fish.adapt]", "nearest"),
+            ("[group.fish.adapt]", "[group.fish.obstacles]\nwithn = 3\n[group.fish.adapt]", "did you mean `within`?"),
             (
                 "field_of_view = { constant = 300 }",
                 "field_of_view = { list = [300, 270] }",

@@ -372,7 +372,9 @@ fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
             Wrong::new(path, error.to_string(), "not possible together")
         }
         WorldError::Group { group, problem } => {
-            let own = ["conduct", "taxis", "pace", "adapt", "decides"].into_iter().find(|key| problem.starts_with(key));
+            let own = ["conduct", "taxis", "pace", "adapt", "decides", "obstacles"]
+                .into_iter()
+                .find(|key| problem.starts_with(key));
             let place = if let Some(key) = own {
                 key
             } else if problem.contains("scanner") || problem.starts_with("sensing") {
@@ -609,6 +611,9 @@ where
     if let Some(sensing) = &group.sensing {
         plan.sensing = sensing.resolved();
     }
+    if let Some(obstacles) = &group.obstacles {
+        plan.obstacles = obstacles.resolved();
+    }
     plan.conduct = group.conduct.as_ref().map(super::Conduct::resolved);
     plan.varied = varied;
     plan.taxis = group.taxis.as_ref().map(|taxis| taxis.resolved(D));
@@ -617,9 +622,13 @@ where
         plan.adapt = Some(adapt.resolved(id).map_err(|wrong| wrong.below("adapt"))?);
     }
     if let Some(decides) = &group.decides {
-        let step = prepared.time_step().to_f64();
-        let intervals = decides.resolved(step, group.count, seed, first);
-        plan.intervals = intervals.map_err(|wrong| wrong.below("decides"))?;
+        let below = |wrong: Wrong| wrong.below("decides");
+        if let Driver::Asynchronous(_) = &scenario.time.driver {
+            plan.clocks = decides.clocks(group.count, seed, first).map_err(below)?;
+        } else {
+            let step = prepared.time_step().to_f64();
+            plan.intervals = decides.intervals(step, group.count, seed, first).map_err(below)?;
+        }
     }
     if let Some(physics) = physics {
         plan.mobility = physics.mobility.resolved();

@@ -254,6 +254,17 @@ fn beside(group: &Group, scenario: &Scenario) -> String {
         }
         text += &if by.is_empty() { ".".to_owned() } else { format!("; the target was the law's, {}.", listed(&by)) };
     }
+    if let Some(told) = &group.obstacles {
+        let within =
+            told.within.map_or_else(|| "in reach".to_owned(), |within| format!("within {} {length}", number(within)));
+        let which = match told.nearest {
+            Some(1) => format!("the nearest obstacle or wall {within}"),
+            Some(nearest) => format!("the {nearest} nearest obstacles and walls {within}"),
+            None => format!("all obstacles and walls {within}"),
+        };
+        let taken = if told.members { ", and took them for members" } else { "" };
+        text += &format!(" They were told of {which}{taken}.");
+    }
     if let Some(adapt) = &group.adapt {
         let other: Vec<String> =
             adapt.to.0.iter().map(|(name, value)| format!("{name} = {}", value.0.tree.json())).collect();
@@ -269,7 +280,17 @@ fn beside(group: &Group, scenario: &Scenario) -> String {
             super::PerMember::All(every) => number(*every),
             other => other.write().json().to_string(),
         };
-        text += &format!(" Members decided every {every} {time} and held their heading in between.");
+        text += &match &scenario.time.driver {
+            Driver::Asynchronous(_) => {
+                let mut own = format!(" Members' own clocks had a period of {every} {time}");
+                let given = [("phases", &decides.phase), ("jitters", &decides.jitter)];
+                for (name, values) in given.into_iter().filter_map(|(name, values)| Some((name, values.as_ref()?))) {
+                    own += &format!(", {name} of {}", values.write().json());
+                }
+                own + "."
+            }
+            _ => format!(" Members decided every {every} {time} and held their heading in between."),
+        };
     }
     text
 }

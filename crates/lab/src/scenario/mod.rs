@@ -22,7 +22,7 @@ pub use beside::{Adapt, Decides, Pace, Stimulus, Taxis};
 pub use body::Physics;
 pub use conduct::Conduct;
 pub use perception::Choice;
-pub use sensing::Sensing;
+pub use sensing::{Sensing, ToldObstacles};
 pub use start::Start;
 pub use surroundings::{Food, Obstacle, Scatter};
 
@@ -190,6 +190,8 @@ form! {
         sensing: Option<Sensing> = none, "", Any;
         /// Whom the model's named sets select, in place of what the model itself says.
         select: Named<Choice> = [Named::default()], "", Any;
+        /// What it is told of obstacles and walls; left out, all that its law asks for.
+        obstacles: Option<ToldObstacles> = none, "", Any;
         /// What it does beside its law; left out, nothing.
         conduct: Option<Conduct> = none, "", Any;
         /// How it goes up a stimulus; left out, it does not.

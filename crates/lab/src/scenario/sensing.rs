@@ -41,6 +41,27 @@ impl Default for Errors {
     }
 }
 
+form! {
+    /// Detection and selection of obstacles and walls.
+    pub struct ToldObstacles {
+        /// Those whose surface is nearer than this are detected; left out, as near as the law looks.
+        within: Option<f64> = none, "length", Positive;
+        /// So many of them are handed on, the nearest; left out, all.
+        nearest: Option<usize> = none, "1", Positive;
+        /// Whether each of these is a virtual member as well, which the law cannot tell from real ones: it stands at the obstacle's
+        /// nearest point and moves with the agent along the surface.
+        members: bool = [false], "", Any;
+    }
+}
+
+impl ToldObstacles {
+    /// The plan for a group.
+    pub(super) fn resolved<R: Scalar>(&self) -> engine::ObstaclePlan<R> {
+        let Self { within, nearest, members } = *self;
+        engine::ObstaclePlan { within: within.map(R::of), nearest, members }
+    }
+}
+
 tagged! {
     /// How one of a pool is drawn.
     pub enum Weights {

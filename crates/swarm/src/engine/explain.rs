@@ -460,6 +460,10 @@ impl<R: Scalar, const D: usize> World<R, D> {
         for (other, offset, sets) in scratch.detected() {
             let id = match &stages.sensing {
                 Sensing::Scanner(_) => None,
+                // obstacles among them are nobody
+                Sensing::Ideal(_) if stages.virtual_members => {
+                    Some(scratch.sensed.id[other]).filter(|&id| (id as usize) < view.others.len())
+                }
                 // headings that are sensed with errors are copied, with the ids beside them
                 Sensing::Ideal(ideal) if ideal.noise.heading > R::ZERO => Some(scratch.sensed.id[other]),
                 Sensing::Ideal(_) => Some(view.others.id[other]),

@@ -142,8 +142,14 @@ pub(crate) struct Stages<R, const D: usize> {
     /// The named sets as rings, where they are that and nothing limits or disturbs their sensing.
     pub(crate) rings: Option<Rings<R>>,
     pub(crate) reach: Reach<R>,
+    /// Where the sets need no more than so many of the nearest, and nothing limits or disturbs their sensing: how many.
+    pub(crate) nearest: Option<usize>,
     pub(crate) sensing: Sensing<R>,
     pub(crate) obstacle_reach: Option<R>,
+    /// How many of the obstacles and walls in reach are handed on: the nearest so many.
+    pub(crate) obstacles_kept: usize,
+    /// Whether those are detected members too.
+    pub(crate) virtual_members: bool,
     /// What it does beside its law.
     pub(crate) conduct: Option<Conduct<R>>,
     pub(crate) taxis: Option<Taxis<R, D>>,
@@ -223,6 +229,8 @@ pub(crate) struct Scratch<R, const D: usize> {
     /// Then, the squared distances in single precision, and how wrong they may be.
     rough_squared: Lined<f32>,
     margin: f32,
+    /// Squared distances to all rows, where the nearest of all are asked for.
+    distances: Lined<R>,
     chosen: Vec<bool>,
     order: Vec<u32>,
     selection: selection::Scratch<R, D>,
@@ -254,6 +262,7 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             everyone: Vec::new(),
             rough_squared: Lined::new(),
             margin: 0.0,
+            distances: Lined::new(),
             chosen: Vec::new(),
             order: Vec::new(),
             selection: selection::Scratch::default(),
@@ -577,11 +586,24 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             *body = now.state[column][row];
         }
     }
-    /// Obstacles and walls near an agent.
+    /// Obstacles and walls near an agent: those detected, and of these the ones selected.
     #[inline(never)]
     fn perceive_obstacles(&self, view: &View<'_, R, D>, row: usize, to: &mut Vec<NearObstacle<R, D>>) {
         to.clear();
         let Some(reach) = self.obstacle_reach else { return };
+        self.detect_obstacles(view, row, reach, to);
+        self.select_obstacles(to);
+    }
+    /// Leaves the nearest so many of the obstacles detected; of equally near ones those met first.
+    #[inline(always)]
+    fn select_obstacles(&self, to: &mut Vec<NearObstacle<R, D>>) {
+        if to.len() > self.obstacles_kept {
+            to.sort_by(|a, b| a.distance.partial_cmp(&b.distance).unwrap_or(core::cmp::Ordering::Equal));
+            to.truncate(self.obstacles_kept);
+        }
+    }
+    #[inline(always)]
+    fn detect_obstacles(&self, view: &View<'_, R, D>, row: usize, reach: R, to: &mut Vec<NearObstacle<R, D>>) {
         let place = view.now.position(row);
         if self.half > R::ZERO {
             return self.perceive_along_axis(view, row, reach, to);
@@ -603,7 +625,24 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             }
         }
     }
-    /// As [`Self::perceive_obstacles`], from that point of the body's axis that is nearest to each.
+    /// As [`Self::perceive_obstacles`], from the scan where there was one.
+    #[inline(always)]
+    fn obstacles_of_decision(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        to: &mut Vec<NearObstacle<R, D>>,
+        scratch: &Scratch<R, D>,
+    ) {
+        if let (Sensing::Scanner(_), Some(reach)) = (&self.sensing, self.obstacle_reach) {
+            to.clear();
+            to.extend(scratch.robot.obstacles(reach));
+            self.select_obstacles(to);
+        } else {
+            self.perceive_obstacles(view, row, to);
+        }
+    }
+    /// As [`Self::detect_obstacles`], from that point of the body's axis that is nearest to each.
     #[cold]
     fn perceive_along_axis(&self, view: &View<'_, R, D>, row: usize, reach: R, to: &mut Vec<NearObstacle<R, D>>) {
         let (place, heading) = (view.now.position(row), view.now.velocity(row).unit());
@@ -663,7 +702,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         self.body_columns.first().filter(|_| keeps).map(|&column| view.now.state[column][row])
     }
     /// Fills the scratch with the detected members of one agent. Returns whether velocities and columns stand in
-    /// `scratch.sensed` rather than in the state.
+    /// `scratch.sensed` rather than in the state. Where it is to be `quick`, members that can be in no set may be left out.
     ///
     /// The same code for all laws: it is compiled once per precision and dimension.
     #[inline(never)]
@@ -673,7 +712,13 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         row: usize,
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
+        quick: bool,
     ) -> bool {
+        if let (Some(count), Index::Pairs, true) = (self.nearest, view.index, quick) {
+            scratch.clear();
+            closest(view, row, view.now.position(row), count, scratch);
+            return false;
+        }
         let indirect = match &self.sensing {
             Sensing::Ideal(ideal) => {
                 let reach = match ideal.range {
@@ -686,6 +731,11 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                     // errors, views and hiding change who the nearest are: look at everyone
                     None => match self.reach {
                         Reach::Nearest(_) => Reach::All,
+                        // whoever stands farther may seem to be within it
+                        Reach::Within(reach) if ideal.noise.distance > R::ZERO => {
+                            let nearest = R::ONE - ideal.noise.distance * R::of(MOST_DEVIATIONS);
+                            if nearest > R::ZERO { Reach::Within(reach / nearest) } else { Reach::All }
+                        }
                         reach => reach,
                     },
                 };
@@ -694,22 +744,51 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 } else {
                     self.candidates(view, row, reach, scratch);
                 }
-                if ideal.is_perfect() { false } else { self.limit(ideal, view, row, scratch) }
+                !ideal.is_perfect() && self.limit(ideal, view, row, scratch)
             }
             Sensing::Scanner(robot) => {
                 self.scan(robot, view, row, scratch, memory);
                 true
             }
         };
-        let count = scratch.found;
-        scratch.sets.clear();
-        scratch.sets.resize(count, 0);
         indirect
+    }
+    /// Makes a member of every obstacle handed on: it stands at the obstacle's nearest point and moves with the agent's own motion
+    /// along the surface, slower where that is curved (Olfati-Saber 2006). As [`Self::detect`] from then on, with the members in
+    /// `scratch.sensed`.
+    #[cold]
+    fn add_virtual_members(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        obstacles: &[NearObstacle<R, D>],
+        scratch: &mut Scratch<R, D>,
+        indirect: bool,
+    ) {
+        if !indirect {
+            self.copy_sensed(view, scratch);
+        }
+        let (place, velocity) = (view.now.position(row), view.now.velocity(row));
+        scratch.make_room(scratch.found + obstacles.len());
+        for near in obstacles {
+            let k = scratch.found;
+            let curved = if near.radius.finite() { near.radius / (near.radius + near.distance) } else { R::ONE };
+            scratch.push(k as u32, near.offset, near.offset.length_squared());
+            // nobody's number
+            scratch.sensed.id[k] = u32::MAX - k as u32;
+            scratch.sensed.set_position(k, place + near.offset);
+            scratch.sensed.set_velocity(k, (velocity - near.away * velocity.dot(near.away)) * curved);
+            for column in &mut scratch.sensed.state {
+                column[k] = R::ZERO;
+            }
+        }
     }
     /// Puts the detected members into the named sets.
     #[inline(never)]
     fn select(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>, indirect: bool) {
         let count = scratch.found;
+        scratch.sets.clear();
+        scratch.sets.resize(count, 0);
         let candidates = Candidates {
             offset: firsts(&scratch.offset, count),
             squared: &scratch.squared[..count],
@@ -717,6 +796,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             others: if indirect { &scratch.sensed } else { view.others },
             heading: view.now.velocity(row).unit(),
             member: (view.now.id[row] - self.first) as usize,
+            periods: view.space.periods(),
         };
         for (s, set) in self.sets.iter().enumerate() {
             scratch.chosen.clear();
@@ -906,9 +986,6 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             let miss = noise.miss.to_f64();
             scratch.retain(|s, k| draws.uniform_about(view.others.id[s.row[k] as usize], 0) >= miss);
         }
-        if let Some(pool) = &ideal.one_of {
-            Self::draw_one(pool, view, row, &draws, scratch);
-        }
         if noise.distance > R::ZERO || noise.direction > R::ZERO {
             for k in 0..scratch.found {
                 let j = view.others.id[scratch.row[k] as usize];
@@ -922,23 +999,32 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 }
                 scratch.squared[k] = seen.length_squared();
             }
+            // what seems to be beyond the reach of the sets is in none of them, and laws rely on that
+            if let Reach::Within(reach) = self.reach {
+                scratch.retain(|s, k| s.squared[k] < reach * reach);
+            }
+        }
+        if let Some(pool) = &ideal.one_of {
+            Self::draw_one(pool, view, row, &draws, scratch);
         }
         if noise.heading > R::ZERO {
+            // whoever was not missed has drawn at least `miss`; beyond that the draw is still uniform, and nobody has used it
+            let miss = noise.miss.to_f64();
+            let spare = |draw: f64| if miss < 1.0 { (draw - miss) / (1.0 - miss) } else { 0.0 };
             self.copy_sensed(view, scratch);
             for k in 0..scratch.found {
                 let j = scratch.sensed.id[k];
                 let aside = noise.heading * R::of(draws.normal_about(j, 5));
                 let velocity = scratch.sensed.velocity(k);
-                let turned =
-                    velocity.unit().turned_by(aside, R::of(draws.uniform_about(j, 7)) * R::TAU) * velocity.length();
+                let turned = velocity.unit().turned_by(aside, R::of(spare(draws.uniform_about(j, 0))) * R::TAU)
+                    * velocity.length();
                 scratch.sensed.set_velocity(k, turned);
-                scratch.row[k] = k as u32;
             }
             return true;
         }
         false
     }
-    /// Copies what is shown of the detected members into the scratch, so that it may be changed.
+    /// Copies what is shown of the detected members into the scratch, so that it may be changed; their rows are those there.
     fn copy_sensed(&self, view: &View<'_, R, D>, scratch: &mut Scratch<R, D>) {
         let count = scratch.found;
         scratch.make_room(count);
@@ -950,6 +1036,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             for (to, from) in scratch.sensed.state.iter_mut().zip(&view.others.state) {
                 to[k] = from[row];
             }
+            scratch.row[k] = k as u32;
         }
     }
     /// Drops all but one of the nearest, which is drawn.
@@ -1072,7 +1159,8 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
         let facing = self.facing(view, row).unwrap_or_else(|| view.now.velocity(row).angle());
         let draws = DrawStream::new(view.seed, Purpose::Sensing, view.step, view.now.id[row]);
-        robot.detect(view.obstacles, view.space, place, facing, &draws, view.time, &mut scratch.robot, memory);
+        let moving = view.now.velocity(row);
+        robot.detect(view.obstacles, view.space, place, moving, facing, &draws, view.time, &mut scratch.robot, memory);
         scratch.clear();
         let found = scratch.robot.found.len();
         scratch.make_room(found);
@@ -1090,6 +1178,9 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
     }
 }
+
+/// No normal draw is so many standard deviations from its mean: they are made of uniform ones with 53 bits.
+const MOST_DEVIATIONS: f64 = 8.6;
 
 /// Lines of sight to a disc.
 const DISC: usize = 19;
@@ -1126,10 +1217,23 @@ impl<R: Scalar, const D: usize> Scratch<R, D> {
             x.partial_cmp(&y).unwrap_or(core::cmp::Ordering::Equal).then(a.cmp(&b))
         });
     }
+    /// Makes room for so many in what was sensed, and keeps what is there.
     fn make_room(&mut self, count: usize) {
-        if self.sensed.id.len() < count + PADDING {
-            self.sensed = Columns::new(2 * count, self.sensed.state.len());
+        let before = self.sensed.id.len();
+        if before >= count + PADDING {
+            return;
         }
+        let mut wider = Columns::new(2 * count, self.sensed.state.len());
+        wider.id[..before].copy_from_slice(&self.sensed.id);
+        let columns = |c: &mut Columns<R, D>| -> Vec<Vec<R>> {
+            c.position.iter_mut().chain(&mut c.velocity).chain(&mut c.state).map(core::mem::take).collect()
+        };
+        let old = columns(&mut self.sensed);
+        let all = wider.position.iter_mut().chain(&mut wider.velocity).chain(&mut wider.state);
+        for (to, from) in all.zip(old) {
+            to[..before].copy_from_slice(&from);
+        }
+        self.sensed = wider;
     }
 }
 
@@ -1203,6 +1307,95 @@ fn pairs<R: Scalar, const D: usize>(
         with_lanes(level(), Meet::<R, D, ALL_OPEN> { view, row, place, radius, segments, scratch });
     }
     scratch.bury(view);
+}
+
+/// So many nearest among all, and perhaps a few more: their distances come first, so that no more than these are listed.
+fn closest<R: Scalar, const D: usize>(
+    view: &View<'_, R, D>,
+    row: usize,
+    place: Vector<R, D>,
+    count: usize,
+    scratch: &mut Scratch<R, D>,
+) {
+    let some = (1..=BLOCK).contains(&count) && view.others.len() > 2 * BLOCK && view.mortality.is_none();
+    let found = some
+        && if view.space.is_periodic() {
+            with_lanes(level(), Closest::<R, D, ALL> { view, row, place, count, scratch })
+        } else {
+            with_lanes(level(), Closest::<R, D, ALL_OPEN> { view, row, place, count, scratch })
+        };
+    if !found {
+        pairs(view, row, place, R::INFINITY, scratch);
+    }
+}
+
+/// See [`closest`]. False, and nobody listed, where fewer than that stand at a finite distance.
+struct Closest<'a, 'b, R, const D: usize, const WAY: u8> {
+    view: &'a View<'b, R, D>,
+    row: usize,
+    place: Vector<R, D>,
+    count: usize,
+    scratch: &'a mut Scratch<R, D>,
+}
+
+impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Closest<'_, '_, R, D, WAY> {
+    type Output = bool;
+    #[inline(always)]
+    fn run<L: Lanes<R>>(self) -> bool {
+        let Self { view, row, place, count, scratch } = self;
+        let end = view.others.len();
+        let mut position = [&[][..]; D];
+        for a in 0..D {
+            position[a] = &view.others.position[a][..end + PADDING];
+        }
+        if scratch.distances.len() < end + PADDING {
+            scratch.distances.grow(2 * (end + PADDING));
+        }
+        let distances = &mut scratch.distances[..end + PADDING];
+        let (me, still): ([L; D], [L; D]) = (splat(place), splat(Vector::ZERO));
+        // the least of every sixteenth: as many different members stand within the last of any so many of these
+        let mut least = [L::splat(R::INFINITY); BLOCK];
+        for first in (0..end).step_by(BLOCK) {
+            let mut others = mask_of(end - first);
+            if row.wrapping_sub(first) < BLOCK {
+                others &= !(1 << (row - first));
+            }
+            for n in 0..BLOCK / L::WIDTH {
+                let part = n * L::WIDTH;
+                let offset = offsets_to::<R, L, D, WAY>(view.space, &position, first + part, &still, &me);
+                let mut squared = crate::motion::dot(&offset, &offset);
+                if others != mask_of(BLOCK) {
+                    squared = L::choose(L::Mask::from_bits(others >> part), squared, L::splat(R::INFINITY));
+                }
+                least[n] = L::lesser(squared, least[n]);
+                squared.store(&mut distances[first + part..]);
+            }
+        }
+        let mut minima = [R::ZERO; BLOCK];
+        for n in 0..BLOCK / L::WIDTH {
+            least[n].store(&mut minima[n * L::WIDTH..]);
+        }
+        minima.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(core::cmp::Ordering::Equal));
+        let limit = minima[count - 1];
+        if !limit.finite() {
+            return false;
+        }
+        let near = L::splat(limit);
+        for first in (0..end).step_by(BLOCK) {
+            let mut bits = 0;
+            for n in 0..BLOCK / L::WIDTH {
+                let part = n * L::WIDTH;
+                bits |= L::load(&scratch.distances[first + part..]).less_equal(near).bits() << part;
+            }
+            while bits != 0 {
+                let other = first + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                let offset = offsets_to::<R, R, D, WAY>(view.space, &position, other, &Vector::ZERO.0, &place.0);
+                scratch.push(other as u32, Vector(offset), scratch.distances[other]);
+            }
+        }
+        true
+    }
 }
 
 /// All rows as one segment.
@@ -1387,19 +1580,20 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             _ => false,
         };
         if !marked {
-            indirect = stages.detect(view, row, scratch, memory);
+            indirect = stages.detect(view, row, scratch, memory, trace.is_none());
+        }
+        let position = view.now.position(row);
+        let mut obstacles = core::mem::take(&mut scratch.obstacles);
+        stages.obstacles_of_decision(view, row, &mut obstacles, scratch);
+        if !marked {
+            if stages.virtual_members {
+                stages.add_virtual_members(view, row, &obstacles, scratch, indirect);
+                indirect = true;
+            }
             stages.select(view, row, scratch, indirect);
             if M::MARKS {
                 scratch.mark();
             }
-        }
-        let position = view.now.position(row);
-        let mut obstacles = core::mem::take(&mut scratch.obstacles);
-        if let (Sensing::Scanner(_), Some(reach)) = (&stages.sensing, stages.obstacle_reach) {
-            obstacles.clear();
-            obstacles.extend(scratch.robot.obstacles(reach));
-        } else {
-            stages.perceive_obstacles(view, row, &mut obstacles);
         }
         stages.load(view.now, row, scratch);
         // whole blocks, where they are read by blocks
@@ -1622,7 +1816,14 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         self.law.performed(own, velocity);
     }
     fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
-        let indirect = self.stages.detect(view, row, scratch, None);
+        let mut indirect = self.stages.detect(view, row, scratch, None, true);
+        if self.stages.virtual_members {
+            let mut obstacles = core::mem::take(&mut scratch.obstacles);
+            self.stages.obstacles_of_decision(view, row, &mut obstacles, scratch);
+            self.stages.add_virtual_members(view, row, &obstacles, scratch, indirect);
+            scratch.obstacles = obstacles;
+            indirect = true;
+        }
         self.stages.select(view, row, scratch, indirect);
         scratch.sets.iter().filter(|&&bits| bits != 0).count()
     }
@@ -1788,7 +1989,10 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
     /// Whether the stages around the law are the ones it streams through.
     fn direct(&self) -> bool {
         let stages = &self.listed.stages;
-        stages.own_sets && !stages.elongated && matches!(&stages.sensing, Sensing::Ideal(ideal) if ideal.is_perfect())
+        stages.own_sets
+            && !stages.elongated
+            && !stages.virtual_members
+            && matches!(&stages.sensing, Sensing::Ideal(ideal) if ideal.is_perfect())
     }
 
     /// Adds the neighbours of one run of rows to the sums of a block. With `IMAGES`, displacements are made minimal pair by

@@ -17,5 +17,8 @@ pub use compiled::Compiled;
 pub use explain::Explanation;
 pub(crate) use kernel::{Kernel, Listed, SideBySide, Stages, Streamed, mask_of, minimal_lanes};
 pub use kernel::{MotionNoise, Sensing};
-pub use plan::{Clock, Driver, GroupPlan, IndexChoice, Order, Phase, Placement, Start, WorldError, WorldPlan};
+pub use plan::{
+    Clock, ClockPlan, Driver, GroupPlan, IndexChoice, ObstaclePlan, Order, Phase, Placement, Start, WorldError,
+    WorldPlan,
+};
 pub use world::{Checkpoint, Group, World};

@@ -78,6 +78,35 @@ pub enum IndexChoice {
     Cells,
 }
 
+/// What a group is told of obstacles and walls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObstaclePlan<R> {
+    /// Those nearer than this are detected; `None`: as near as the model looks.
+    pub within: Option<R>,
+    /// So many of them are handed on, the nearest; `None`: all.
+    pub nearest: Option<usize>,
+    /// Whether each of these is a member too, which the model cannot tell from real ones.
+    pub members: bool,
+}
+
+impl<R> Default for ObstaclePlan<R> {
+    fn default() -> Self {
+        Self { within: None, nearest: None, members: false }
+    }
+}
+
+/// Clocks of the members of a group under an asynchronous driver: each list is empty, where all are as the driver says, or has an
+/// entry for each member.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ClockPlan {
+    /// Times between two decisions.
+    pub period: Vec<f64>,
+    /// Times of the first decision.
+    pub phase: Vec<f64>,
+    /// Largest deviations from the period, as shares of it.
+    pub jitter: Vec<f64>,
+}
+
 /// A group's state at the start, agent by agent.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Start<R, const D: usize> {
@@ -118,14 +147,18 @@ pub struct GroupPlan<R, const D: usize> {
     pub varied: Vec<Varied>,
     /// Other parameters in a situation.
     pub adapt: Option<Adaptation<R>>,
-    /// Steps between two decisions, by member; empty where all decide in every step.
+    /// Steps between two decisions, by member; empty where all decide in every step. Not under an asynchronous driver.
     pub intervals: Vec<u64>,
+    /// Clocks that differ from the driver's. Under an asynchronous driver only.
+    pub clocks: ClockPlan,
     /// The start.
     pub placement: Placement<R, D>,
     /// Sensing.
     pub sensing: Sensing<R>,
     /// Perception functions in place of the model's own, by the name of the set.
     pub sets: Vec<(String, Perception<R, D>)>,
+    /// What it is told of obstacles and walls.
+    pub obstacles: ObstaclePlan<R>,
     /// What it does beside its law.
     pub conduct: Option<Conduct<R>>,
     /// How it goes up a stimulus.
@@ -155,9 +188,11 @@ impl<R: Real, const D: usize> GroupPlan<R, D> {
             varied: Vec::new(),
             adapt: None,
             intervals: Vec::new(),
+            clocks: ClockPlan::default(),
             placement,
             sensing: Sensing::default(),
             sets: Vec::new(),
+            obstacles: ObstaclePlan::default(),
             conduct: None,
             taxis: None,
             pace: None,

@@ -18,9 +18,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
         match self.driver {
             Driver::Synchronous => self.step_synchronous(),
             Driver::Sequential(order) => self.step_sequential(order),
-            Driver::Asynchronous { tick, period, clock, delay, .. } => {
-                self.step_asynchronous(tick, period, clock, delay)
-            }
+            Driver::Asynchronous { tick, clock, delay, .. } => self.step_asynchronous(tick, clock, delay),
         }
         self.step += 1;
     }
@@ -202,7 +200,7 @@ impl<R: Scalar, const D: usize> World<R, D> {
     }
 
     /// Each on its own clock; physics moves everyone in every tick.
-    fn step_asynchronous(&mut self, tick: f64, period: f64, clock: Clock, delay: f64) {
+    fn step_asynchronous(&mut self, tick: f64, clock: Clock, delay: f64) {
         self.obstacles.advance(self.time);
         let agents = self.now.len();
         let stale = self.keep_history(tick, delay);
@@ -245,8 +243,9 @@ impl<R: Scalar, const D: usize> World<R, D> {
                 let count = clocks.decisions[row];
                 clocks.decisions[row] += 1;
                 let draw = uniform(self.seed, Purpose::Environment, count, row as u32 * 8 + 6);
+                let (period, jitter) = self.rhythm[row];
                 clocks.due[row] += match clock {
-                    Clock::Regular { jitter } => period * (1.0 + jitter * (2.0 * draw - 1.0)),
+                    Clock::Regular { .. } => period * (1.0 + jitter * (2.0 * draw - 1.0)),
                     Clock::Poisson => -period * <f64 as space::Real>::ln(1.0 - draw),
                 };
             } else {

@@ -9,7 +9,7 @@ use crate::engine::compiled::Compiled;
 use crate::engine::conduct::Conduct;
 use crate::engine::kernel::{Body, Close, Index, Kernel, Scratch, Sensing, Stages, View};
 use crate::engine::layered::{Layered, column_of, laws};
-use crate::engine::plan::{Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
+use crate::engine::plan::{Clock, ClockPlan, Driver, GroupPlan, IndexChoice, Phase, Placement, WorldError, WorldPlan};
 use crate::models::{Catalogue, Models, Prepared};
 use crate::motion::{Injected, Motion, Start as Completion};
 use crate::parameters::{Scalar, Value};
@@ -103,6 +103,8 @@ pub struct World<R: Scalar, const D: usize> {
     pub(crate) driver: Driver,
     pub(crate) dt: R,
     pub(crate) clocks: Clocks<R, D>,
+    /// Period and jitter of each agent's clock, by id.
+    pub(crate) rhythm: Vec<(f64, f64)>,
     pub(crate) memory: Vec<Memory<R>>,
     pub(crate) seed: u64,
     pub(crate) step: u64,
@@ -212,7 +214,8 @@ where
         let dt = prepared.first().map_or(R::ONE, |(laws, ..)| laws[0].time_step);
         let adapting = plan.groups.iter().filter_map(|group| group.adapt.as_ref()?.obstacle);
         let reaches = prepared.iter().flat_map(|(laws, ..)| laws.iter().filter_map(|law| law.obstacle_reach));
-        let obstacle_reach = reaches.chain(adapting).fold(R::ZERO, Real::most);
+        let asked = plan.groups.iter().filter_map(|group| group.obstacles.within);
+        let obstacle_reach = reaches.chain(adapting).chain(asked).fold(R::ZERO, Real::most);
         let halves: Vec<R> = plan
             .groups
             .iter()
@@ -242,7 +245,7 @@ where
             let told = Told { own: &own_columns, body: &body_columns };
             if !group.intervals.is_empty() {
                 if matches!(plan.driver, Driver::Asynchronous { .. }) {
-                    let problem = "decides: agents on their own clocks have the period of the driver; leave one out";
+                    let problem = "decides: agents on their own clocks have periods, not intervals of steps";
                     return Err(in_group(group, problem.into()));
                 }
                 if group.intervals.len() != group.count {
@@ -260,7 +263,7 @@ where
                         ),
                     ));
                 }
-                let (sets, own_sets) = chosen_sets(group, &model.sets)?;
+                let (sets, own_sets) = chosen_sets(group, &model.sets, agents)?;
                 let set_reach =
                     sets.iter().map(|s| s.perception.reach()).reduce(Reach::and).unwrap_or(Reach::Within(R::TINY));
                 let mut sensing = group.sensing.clone();
@@ -282,6 +285,8 @@ where
                         robot.widest_body = widest.most(radius);
                     }
                 }
+                check_obstacles(group, needs, model.obstacle_reach)?;
+                let obstacle_reach = group.obstacles.within.or(model.obstacle_reach);
                 let group_reach = match (&sensing, model.stream_reach) {
                     (Sensing::Scanner(robot), _) => Reach::Within(robot.scanner_range() + robot.widest_body),
                     (Sensing::Ideal(ideal), _) if ideal.range.is_some() => {
@@ -324,9 +329,12 @@ where
                 let adapts = adapts.transpose().map_err(refused)?;
                 identity |= conduct.is_some() || pace.is_some() || adapts.is_some();
                 guarded &= model.guarded;
-                let perfect = !elongated && matches!(&sensing, Sensing::Ideal(ideal) if ideal.is_perfect());
+                let perfect = !elongated
+                    && !group.obstacles.members
+                    && matches!(&sensing, Sensing::Ideal(ideal) if ideal.is_perfect());
                 let stages = Stages {
                     rings: if perfect { Rings::of(&sets) } else { None },
+                    nearest: if perfect { crate::selection::nearest_of(&sets) } else { None },
                     first,
                     count: group.count as u32,
                     columns: own.clone(),
@@ -335,7 +343,9 @@ where
                     own_sets,
                     reach: set_reach,
                     sensing,
-                    obstacle_reach: model.obstacle_reach,
+                    obstacle_reach,
+                    obstacles_kept: group.obstacles.nearest.unwrap_or(usize::MAX),
+                    virtual_members: group.obstacles.members,
                     conduct,
                     taxis,
                     pace,
@@ -460,6 +470,7 @@ where
             driver: plan.driver,
             dt,
             clocks: Clocks { due: Vec::new(), decisions: Vec::new(), command: Vec::new(), history: Default::default() },
+            rhythm: Vec::new(),
             memory,
             seed: plan.seed,
             step: plan.first_step,
@@ -487,7 +498,7 @@ where
         world.place_groups(&plan)?;
         world.note_close();
         world.obstacles.advance(0.0);
-        world.start_clocks();
+        world.start_clocks(&plan.groups);
         world.settle();
         Ok(world)
     }
@@ -575,15 +586,26 @@ where
 }
 
 impl<R: Scalar, const D: usize> World<R, D> {
-    fn start_clocks(&mut self) {
-        let Driver::Asynchronous { period, phase, .. } = self.driver else { return };
+    fn start_clocks(&mut self, groups: &[GroupPlan<R, D>]) {
+        let Driver::Asynchronous { period, phase, clock, .. } = self.driver else { return };
         let agents = self.now.len();
-        let due = |id: usize| match phase {
-            Phase::Together => 0.0,
-            Phase::Spread => period * id as f64 / agents as f64,
-            Phase::Random => period * space::random::uniform(self.seed, Purpose::Environment, u64::MAX, id as u32 * 8),
-        };
-        self.clocks.due = (0..agents).map(due).collect();
+        let usual = if let Clock::Regular { jitter } = clock { jitter } else { 0.0 };
+        for plan in groups {
+            let own = |list: &[f64], member: usize, usual: f64| list.get(member).copied().unwrap_or(usual);
+            for member in 0..plan.count {
+                let id = self.rhythm.len();
+                let period = own(&plan.clocks.period, member, period);
+                let due = match phase {
+                    Phase::Together => 0.0,
+                    Phase::Spread => period * id as f64 / agents as f64,
+                    Phase::Random => {
+                        period * space::random::uniform(self.seed, Purpose::Environment, u64::MAX, id as u32 * 8)
+                    }
+                };
+                self.clocks.due.push(own(&plan.clocks.phase, member, due));
+                self.rhythm.push((period, own(&plan.clocks.jitter, member, usual)));
+            }
+        }
         self.clocks.decisions = vec![0; agents];
         let dt = self.dt;
         self.clocks.command = (0..agents)
@@ -979,11 +1001,49 @@ fn check_world<R: Scalar, const D: usize>(plan: &WorldPlan<R, D>) -> Result<(), 
                 "the delay of readings must be from 0 to 10,000 ticks, found {delay}"
             )));
         }
-        if let crate::engine::plan::Clock::Regular { jitter } = clock
+        if let Clock::Regular { jitter } = clock
             && !(0.0..1.0).contains(&jitter)
         {
             return Err(WorldError::World(format!("the jitter must be from 0 to below 1, found {jitter}")));
         }
+    }
+    plan.groups.iter().try_for_each(|group| check_clocks(group, plan.driver))
+}
+
+/// Clocks of its own that a group can have under a driver.
+fn check_clocks<R: Scalar, const D: usize>(group: &GroupPlan<R, D>, driver: Driver) -> Result<(), WorldError> {
+    let ClockPlan { period, phase, jitter } = &group.clocks;
+    let wrong = |problem: String| Err(in_group(group, format!("decides: {problem}")));
+    for (name, list) in [("periods", period), ("phases", phase), ("jitters", jitter)] {
+        match driver {
+            _ if list.is_empty() => {}
+            Driver::Asynchronous { clock: Clock::Poisson, .. } if name == "jitters" => {
+                return wrong("a clock at random times has no jitter; leave it out, or use a regular clock".into());
+            }
+            Driver::Asynchronous { .. } => {}
+            _ => {
+                return wrong(format!(
+                    "{name} are those of clocks, which agents have under an asynchronous driver alone"
+                ));
+            }
+        }
+        if !list.is_empty() && list.len() != group.count {
+            return wrong(format!("{} {name} for {} members", list.len(), group.count));
+        }
+    }
+    if let Some(period) = period.iter().find(|&&period| !(period > 0.0 && period.is_finite())) {
+        return wrong(format!("periods must be more than 0, found {period}"));
+    }
+    if let Driver::Asynchronous { tick, .. } = driver
+        && let Some(period) = period.iter().find(|&&period| period < tick)
+    {
+        return wrong(format!("the period ({period}) is shorter than a tick ({tick})"));
+    }
+    if let Some(phase) = phase.iter().find(|&&phase| !(phase >= 0.0 && phase.is_finite())) {
+        return wrong(format!("phases must be 0 or more, found {phase}"));
+    }
+    if let Some(jitter) = jitter.iter().find(|jitter| !(0.0..1.0).contains(*jitter)) {
+        return wrong(format!("jitters must be from 0 to below 1, found {jitter}"));
     }
     Ok(())
 }
@@ -1018,6 +1078,7 @@ fn half_axis<R: Scalar, const D: usize>(group: &GroupPlan<R, D>, law: &Prepared<
 fn chosen_sets<R: Scalar, const D: usize>(
     group: &GroupPlan<R, D>,
     own: &[NamedSet<R, D>],
+    agents: usize,
 ) -> Result<(Vec<NamedSet<R, D>>, bool), WorldError> {
     let mut sets = own.to_vec();
     for (name, perception) in &group.sets {
@@ -1037,14 +1098,45 @@ fn chosen_sets<R: Scalar, const D: usize>(
             return Err(in_group(group, problem));
         }
         set.perception.check().map_err(|problem| in_group(group, format!("set `{}`: {problem}", set.name)))?;
-        if let Perception::FixedSet(lists) = &set.perception
-            && lists.len() != group.count
-        {
-            let problem = format!("fixed_set needs a list for each of {} members, found {}", group.count, lists.len());
-            return Err(in_group(group, problem));
+        if let Perception::FixedSet(lists) = &set.perception {
+            if lists.len() != group.count {
+                let found = lists.len();
+                let problem = format!("fixed_set needs a list for each of {} members, found {found}", group.count);
+                return Err(in_group(group, problem));
+            }
+            if let Some(nobody) = lists.iter().flatten().find(|&&id| id as usize >= agents) {
+                let there =
+                    if agents == 0 { "nobody is there".into() } else { format!("ids go from 0 to {}", agents - 1) };
+                return Err(in_group(group, format!("set `{}`: fixed_set names {nobody}; {there}", set.name)));
+            }
         }
     }
     Ok((sets, group.sets.is_empty()))
+}
+
+/// What a law cannot be told of obstacles, and what nobody can.
+fn check_obstacles<R: Scalar, const D: usize>(
+    group: &GroupPlan<R, D>,
+    needs: crate::motion::Needs,
+    reach: Option<R>,
+) -> Result<(), WorldError> {
+    let (told, model) = (&group.obstacles, &group.model);
+    let problem = if told.within.is_some_and(|within| !(within > R::ZERO && within.finite())) {
+        format!("obstacles.within must be more than 0, found {}", told.within.unwrap_or(R::ZERO))
+    } else if told.nearest == Some(0) {
+        "obstacles.nearest must be 1 or more, found 0; leave it out for all".to_owned()
+    } else if told.members && needs.identity {
+        format!("obstacles.members: `{model}` needs to know who the others are, and obstacles are nobody; leave it out")
+    } else if told.members && needs.state {
+        format!("obstacles.members: `{model}` needs state of the others that obstacles do not have; leave it out")
+    } else if told.members && told.within.is_none() && reach.is_none() {
+        format!(
+            "obstacles.members: `{model}` looks at no obstacles; say within which distance they are members, with `within`"
+        )
+    } else {
+        return Ok(());
+    };
+    Err(in_group(group, problem))
 }
 
 fn refuse_what_a_scanner_cannot_give<R: Scalar, const D: usize>(

@@ -101,7 +101,7 @@ impl<R: Scalar> Law<R> for ControlBoids<R> {
         stages: Stages {
             sensing: "ideal within the radius; hidden behind walls and discs where the group's sensing has `occlusion`",
             detection: "ideal",
-            selection: "neighbours = distance_based(0, R) within angle(alpha); too_near = those of distance below r_s",
+            selection: "neighbours = distance_based(0, R), R included, within angle(alpha); too_near = those of distance below r_s",
             motion: "weighted unit vectors",
             physics: "turn-limited, constant speed; slides along walls, pushed out to its radius",
             obstacles: "walls and discs nearer than d_w, unless the member is leaving them",
@@ -150,17 +150,17 @@ impl<R: Scalar> Stream<R, 2> for ControlBoids<R> {
 
     fn sets(&self) -> Vec<NamedSet<R, 2>> {
         let within = |radius: R| match radius > R::ZERO {
-            true => Perception::distance(R::ZERO, radius.least(self.radius))
+            true => Perception::distance(R::ZERO, radius.least(control::past(self.radius)))
                 .both(Perception::angle(self.field_of_view.radians())),
             false => Perception::KNearest(0),
         };
         vec![
-            NamedSet::new("neighbours", within(self.radius)),
+            NamedSet::new("neighbours", within(control::past(self.radius))),
             NamedSet::new("too_near", within(self.separation_radius)),
         ]
     }
     fn reach(&self) -> R {
-        self.radius
+        control::past(self.radius)
     }
     #[inline(always)]
     fn classify<L: Lanes<R>>(

@@ -57,7 +57,7 @@ impl<R: Scalar> Law<R> for ControlSnn<R> {
         stages: Stages {
             sensing: "ideal within the radius; hidden behind walls and discs where the group's sensing has `occlusion`",
             detection: "ideal",
-            selection: "neighbours = distance_based(0, R) within angle(alpha), of these the nearest",
+            selection: "neighbours = distance_based(0, R), R included, within angle(alpha), of these the nearest",
             motion: "weighted unit vectors",
             physics: "turn-limited; slides along walls, pushed out to its radius",
             obstacles: "walls and discs nearer than d_w, unless the member is leaving them",
@@ -109,7 +109,7 @@ impl<R: Scalar> Law<R> for ControlSnn<R> {
 impl<R: Scalar> Model<R, 2> for ControlSnn<R> {
     fn sets(&self) -> Vec<NamedSet<R, 2>> {
         let view = Perception::angle(self.field_of_view.radians());
-        let seen = Perception::distance(R::ZERO, self.radius).both(view);
+        let seen = Perception::distance(R::ZERO, control::past(self.radius)).both(view);
         vec![NamedSet::new("neighbours", Perception::Sequence(vec![seen, Perception::Nearest]))]
     }
     fn decide(&self, me: &mut Me<'_, R, 2>, seen: &Percepts<'_, R, 2>, draws: &Draws<'_>) -> Motion<R, 2> {
@@ -150,8 +150,9 @@ mod tests {
         // near enough: it stays, and keeps its heading
         close(first([2.0, 0.0]).position(0), [0.0, 0.0]);
         close(first([2.0, 0.0]).velocity(0), [1.0, 0.0]);
-        // out of sight: on
-        close(first([0.0, 7.0]).position(0), [1.0, 0.0]);
+        // at the edge of sight, and out of it: on
+        close(first([0.0, 7.0]).position(0), [0.5f64.cos(), 0.5f64.sin()]);
+        close(first([0.0, 7.0 + 1e-9]).position(0), [1.0, 0.0]);
         let w = Oracle::new("control_snn").inject("wander", &[0.2]).step(&[([0.0, 0.0], [1.0, 0.0])]);
         close(w.position(0), [0.2f64.cos(), 0.2f64.sin()]);
     }

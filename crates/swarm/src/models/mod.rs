@@ -337,7 +337,7 @@ models! {
     lists_as hamilton_2d::Hamilton2d in [2, 3];
     lists_as viscido_snn::ViscidoSnn in [2, 3];
     lists viscido_ha::ViscidoHa in [2];
-    lists viscido_lch::ViscidoLch in [2, 3];
+    streams viscido_lch::ViscidoLch in [2, 3];
     lists ha_extended::HaExtended in [2];
     lists_as lch_group_pose::LchGroupPose in [2, 3];
     lists_as lch_member_pose::LchMemberPose in [2, 3];

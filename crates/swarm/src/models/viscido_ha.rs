@@ -75,7 +75,7 @@ pub(super) fn to_second<R: Scalar, const D: usize>(
     for j in seen.set(0).filter(|&j| j != first) {
         let offset = space.minimal(seen.offset(j) - seen.offset(first));
         let (squared, id) = (offset.length_squared(), seen.id(j));
-        if squared.root() > beyond && best.is_none_or(|(s, i, _)| (squared, id) < (s, i)) {
+        if best.is_none_or(|(s, i, _)| (squared, id) < (s, i)) && squared.root() > beyond {
             best = Some((squared, id, offset));
         }
     }

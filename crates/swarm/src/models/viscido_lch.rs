@@ -9,6 +9,7 @@ use crate::parameters;
 use crate::parameters::Scalar;
 use crate::selection::{NamedSet, Perception};
 use space::Vector;
+use space::lanes::{Lanes, Mask};
 
 parameters! {
     /// Parameters of `viscido_lch`.
@@ -61,15 +62,37 @@ impl<R: Scalar> Law<R> for ViscidoLch<R> {
     }
 }
 
-impl<R: Scalar, const D: usize> Model<R, D> for ViscidoLch<R> {
+impl<R: Scalar, const D: usize> Stream<R, D> for ViscidoLch<R> {
+    type Sums<L: Lanes<R>> = [L; D];
+    const HEADINGS: bool = false;
+
     fn sets(&self) -> Vec<NamedSet<R, D>> {
         vec![NamedSet::new("neighbours", Perception::All)]
     }
-    fn decide(&self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, _: &Draws<'_>) -> Motion<R, D> {
-        let mut crowd = Vector::ZERO;
-        for k in seen.set(0) {
-            crowd += seen.offset(k) / (R::ONE + self.decay * seen.distance(k));
-        }
+    fn reach(&self) -> R {
+        R::INFINITY
+    }
+    #[inline(always)]
+    fn classify<L: Lanes<R>>(&self, _: &MeLanes<L, D>, _: &[L; D], _: L, _: &Other<'_, R, D>) -> SetMasks<L::Mask> {
+        let [yes, no] = [true, false].map(L::Mask::all_of);
+        [yes, no, no, no]
+    }
+    #[inline(always)]
+    fn gather<L: Lanes<R>>(
+        &self,
+        crowd: &mut [L; D],
+        _: &MeLanes<L, D>,
+        offset: &[L; D],
+        squared: L,
+        _: &Other<'_, R, D>,
+        sets: &SetMasks<L::Mask>,
+    ) {
+        let weight = L::splat(R::ONE) + squared.square_root() * L::splat(self.decay);
+        add_where(crowd, sets[0], offset.map(|d| d / weight));
+    }
+    #[inline(always)]
+    fn finish(&self, me: &mut Me<'_, R, D>, crowd: &[R; D], _: &Draws<'_>) -> Motion<R, D> {
+        let crowd = Vector(*crowd);
         me.unit("length");
         me.note("crowd", crowd);
         me.sum(crowd);

@@ -129,7 +129,12 @@ impl<R: Real, const D: usize> Resources<R, D> {
     ) -> Result<Self, String> {
         let find = |name: &str| {
             column(name)
-                .ok_or_else(|| format!("resources change the column `{name}`, which no model of this world declares"))
+                .ok_or_else(|| {
+                    format!(
+                        "resources change the column `{name}`, which no model of this world declares; name one that a model \
+                         has (`flockworks models ID` lists them), or give a group a model that has it"
+                    )
+                })
         };
         if plan.within < R::ZERO || !plan.within.finite() {
             return Err(format!("the distance of consumption must be 0 or more, found {}", plan.within));

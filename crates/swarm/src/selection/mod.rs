@@ -132,6 +132,12 @@ impl<R: Scalar> Rings<R> {
     }
 }
 
+/// How many of the nearest are enough to fill all of these sets; `None` where ranks among the nearest do not say who is in them.
+pub(crate) fn nearest_of<R: Scalar, const D: usize>(sets: &[NamedSet<R, D>]) -> Option<usize> {
+    let counts: Option<Vec<usize>> = sets.iter().map(|set| set.perception.nearest_enough()).collect();
+    counts?.into_iter().max().filter(|&count| count > 0)
+}
+
 /// Which others have to be looked at to evaluate a perception function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach<R> {
@@ -223,6 +229,25 @@ impl<R: Scalar, const D: usize> Perception<R, D> {
             },
         }
     }
+    /// How many of the nearest are enough; `None` where that cannot be told.
+    fn nearest_enough(&self) -> Option<usize> {
+        // those before whom nobody nearer is left out
+        let all_round = |part: &Self| match part {
+            Self::DistanceBased { low, .. } => *low <= R::ZERO,
+            Self::Angle { cos_half, .. } => *cos_half < -R::ONE,
+            _ => false,
+        };
+        match self {
+            Self::Nearest => Some(1),
+            Self::KNearest(count) => Some(*count),
+            Self::Sequence(parts) => match parts.as_slice() {
+                [Self::Intersection(first), second] if first.iter().all(all_round) => second.nearest_enough(),
+                [first, second] if all_round(first) => second.nearest_enough(),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
     /// Whether membership depends on the other candidates.
     pub fn ranks(&self) -> bool {
         match self {
@@ -297,6 +322,8 @@ pub struct Candidates<'a, R, const D: usize> {
     pub heading: Vector<R, D>,
     /// My index in the group.
     pub member: usize,
+    /// Periods of the axes that close on themselves.
+    pub periods: [Option<R>; D],
 }
 
 /// Buffers of the selection stage.
@@ -353,7 +380,7 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
                     }
                 }
                 chosen.fill(false);
-                if voronoi::neighbours(offsets, buffers, neighbours).is_ok() {
+                if voronoi::neighbours_around(offsets, &self.periods, buffers, neighbours).is_ok() {
                     for &n in neighbours.iter() {
                         chosen[order[n as usize] as usize] = true;
                     }
@@ -451,11 +478,12 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
     fn keep_few(&self, count: usize, chosen: &mut [bool]) {
         let mut best = [0; FEW];
         let mut found = 0;
+        let farthest = self.farthest_of(count, chosen);
         for k in 0..chosen.len() {
-            if !chosen[k] {
+            let near = core::mem::replace(&mut chosen[k], false) && self.squared[k] <= farthest;
+            if !near {
                 continue;
             }
-            chosen[k] = false;
             if found == count {
                 // most are farther than the last of the best
                 if self.squared[k] > self.squared[best[count - 1]] || self.nearer(best[count - 1], k).is_lt() {
@@ -474,6 +502,23 @@ impl<R: Scalar, const D: usize> Candidates<'_, R, D> {
         for &k in &best[..found] {
             chosen[k] = true;
         }
+    }
+    /// A squared distance beyond which none of the nearest `count` stands: the least distance of every sixteenth is one of so many
+    /// different candidates.
+    fn farthest_of(&self, count: usize, chosen: &[bool]) -> R {
+        if chosen.len() < 4 * FEW {
+            return R::INFINITY;
+        }
+        let mut least = [R::INFINITY; FEW];
+        let (distances, marks) = (self.squared.chunks_exact(FEW), chosen.chunks_exact(FEW));
+        for (distances, marks) in distances.zip(marks) {
+            for l in 0..FEW {
+                let distance = if marks[l] { distances[l] } else { R::INFINITY };
+                least[l] = if distance < least[l] { distance } else { least[l] };
+            }
+        }
+        least.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(core::cmp::Ordering::Equal));
+        least[count - 1]
     }
     /// By distance; ties go to the lower id.
     fn nearer(&self, a: usize, b: usize) -> core::cmp::Ordering {

@@ -19,7 +19,8 @@ pub struct Robot<R> {
     pub scanner: Scanner<R>,
     /// How members are found among the readings.
     pub detection: ReadingDetection<R>,
-    /// Largest distance between two sights of the same member; `None`: velocities of others stay unknown.
+    /// Largest distance between two sights of the same member; `None`: velocities of others stay unknown. A member that is seen
+    /// for the first time is taken to move as the agent itself does.
     pub association: Option<R>,
     /// Errors put in on purpose.
     pub errors: Option<InjectedErrors<R>>,
@@ -34,11 +35,15 @@ impl<R: Scalar> Robot<R> {
     }
 
     /// One scan and what is made of it: fills `scratch.found` and the obstacle points.
+    ///
+    /// Whose velocity is not known yet is taken to move as the agent itself does (`moving`): then it neither slows the agent
+    /// down nor turns it.
     pub(crate) fn detect<const D: usize>(
         &self,
         obstacles: &Obstacles<R, D>,
         space: &Space<R, D>,
         place: Vector<R, D>,
+        moving: Vector<R, D>,
         facing: R,
         draws: &DrawStream,
         time: f64,
@@ -90,7 +95,7 @@ impl<R: Scalar> Robot<R> {
             memory.tracks.update(scratch.found.iter().map(|f| f.offset), own, elapsed);
             (memory.place, memory.time) = (here, Some(time));
             for (found, velocity) in scratch.found.iter_mut().zip(memory.tracks.velocities()) {
-                found.velocity = velocity.unwrap_or(Vector::ZERO);
+                found.velocity = velocity.unwrap_or(flat(moving));
             }
         }
     }
