@@ -185,6 +185,18 @@ fn in_files(parameter: &Descriptor) -> Option<Value> {
     })
 }
 
+/// The named sets of parameters, a sentence each.
+fn presets(entry: &Entry) -> String {
+    let one = |&(name, values): &swarm::motion::Preset| match values {
+        [] => format!("`preset = \"{name}\"`: the defaults."),
+        values => {
+            let values: Vec<String> = values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+            format!("`preset = \"{name}\"`: {}.", values.join(", "))
+        }
+    };
+    (entry.presets)().iter().map(one).collect::<Vec<_>>().join("\n")
+}
+
 /// How obstacles are given to a law that looks at them.
 const OBSTACLES: &str = "In a scenario they are `obstacle`s and the walls of the space; in a case they stand among the parameters: \
      `walls` (from, to: [x, y, x, y]), `discs` or `spheres` (centre and radius: [x, y, r]), `planes` (a point and a normal).";
@@ -319,6 +331,7 @@ fn card_text(entry: &Entry) -> String {
     part("Stages", rows(&stages(entry).into_iter().map(stage).collect::<Vec<_>>()));
     let body = card_parameters(&(entry.parameters)());
     part("Parameters", if body.is_empty() { "  none\n".into() } else { body });
+    part("Parameter sets", wrapped(&presets(entry), 2));
     part("Obstacles", if card.stages.obstacles.is_empty() { String::new() } else { wrapped(OBSTACLES, 2) });
     let columns = columns_table((entry.columns)());
     part("State columns", if columns.is_empty() { String::new() } else { indented(&columns.text()) });
@@ -369,6 +382,7 @@ fn card_markdown(entry: &Entry) -> String {
     part("Stages", &table.markdown());
     let parameters = parameters_table(&(entry.parameters)());
     part("Parameters", &if parameters.is_empty() { "None.".into() } else { parameters.markdown() });
+    part("Parameter sets", &presets(entry));
     part("Obstacles", if card.stages.obstacles.is_empty() { "" } else { OBSTACLES });
     let columns = columns_table((entry.columns)());
     part("State columns", &if columns.is_empty() { String::new() } else { columns.markdown() });

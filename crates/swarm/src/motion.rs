@@ -7,7 +7,7 @@
 //! [`Single`] makes a `Model` of it.
 
 use crate::card::Card;
-use crate::parameters::{Parameters, Scalar};
+use crate::parameters::{Parameters, Scalar, Value};
 use crate::physics::Contact;
 use crate::selection::{NamedSet, RINGS};
 use space::lanes::{Lanes, Mask};
@@ -430,7 +430,27 @@ impl<R: Real, const D: usize> Percepts<'_, R, D> {
         let distance = self.distance(k);
         if distance > R::TINY { self.offset(k) / distance } else { Vector::ZERO }
     }
-    /// Velocity of percept `k`; zero where it is not known yet.
+    /// Calls `each` with the members of a named set, in canonical order, and their directions, which are computed several at a time.
+    #[inline(always)]
+    pub fn each_direction(&self, set: usize, mut each: impl FnMut(usize, Vector<R, D>)) {
+        const TOGETHER: usize = 8;
+        let whole = self.len() / TOGETHER * TOGETHER;
+        for first in (0..whole).step_by(TOGETHER) {
+            let mut directions = [[R::ZERO; TOGETHER]; D];
+            for l in 0..TOGETHER {
+                let distance = self.squared[first + l].root();
+                for a in 0..D {
+                    let part = self.offset[a][first + l] / distance;
+                    directions[a][l] = if distance > R::TINY { part } else { R::ZERO };
+                }
+            }
+            for l in (0..TOGETHER).filter(|l| self.is_in(first + l, set)) {
+                each(first + l, Vector(core::array::from_fn(|a| directions[a][l])));
+            }
+        }
+        (whole..self.len()).filter(|&k| self.is_in(k, set)).for_each(|k| each(k, self.direction(k)));
+    }
+    /// Velocity of percept `k`; the agent's own where it is not known yet.
     #[inline(always)]
     pub fn velocity(&self, k: usize) -> Vector<R, D> {
         self.others.velocity(self.row[k] as usize)
@@ -500,6 +520,9 @@ pub struct Needs {
     pub state: bool,
 }
 
+/// A named set of parameters: those that differ from the defaults.
+pub type Preset = (&'static str, &'static [(&'static str, Value)]);
+
 /// What every law has, whichever way it is written.
 pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
     /// The model's description.
@@ -511,6 +534,14 @@ pub trait Law<R: Scalar>: Parameters + Send + Sync + 'static {
     /// What it needs to know of others.
     fn needs(&self) -> Needs {
         Needs { velocity: true, ..Needs::default() }
+    }
+    /// Whether obstacles hide the others from it, where a file says nothing of its sensing.
+    fn blinded_by_obstacles() -> bool {
+        false
+    }
+    /// Parameter sets by name, each with the values that differ from the defaults.
+    fn presets() -> &'static [Preset] {
+        &[]
     }
     /// Length of a step in time.
     fn time_step(&self) -> R {

@@ -13,8 +13,8 @@ use swarm::physics::{Contact, DifferentialDrive, Met, Mobility};
 use swarm::resources::{Gain, Metabolism, ResourcePlan, Respawn};
 use swarm::selection::Perception;
 use swarm::sensing::robot::Robot;
-use swarm::sensing::scanner::{Origin, Scanner};
-use swarm::sensing::{Ideal, Occlusion};
+use swarm::sensing::scanner::{Origin, ScanNoise, Scanner};
+use swarm::sensing::{Ideal, Occlusion, SensingNoise};
 use swarm::{Driver, World, WorldPlan};
 
 fn values(pairs: &[(&str, Value)]) -> Values {
@@ -681,7 +681,7 @@ fn errors_of_distances_go_both_ways() {
             given(&[[0.0, 0.0], [distance, 0.0]], &[[1.0, 0.0]; 2]),
         );
         group.sensing = Sensing::Ideal(Ideal {
-            noise: swarm::sensing::SensingNoise { distance: 0.1, direction: 0.0, heading: 0.0, miss: 0.0 },
+            noise: SensingNoise { distance: 0.1, direction: 0.0, heading: 0.0, miss: 0.0 },
             ..Ideal::default()
         });
         let mut seen = 0;
@@ -776,4 +776,106 @@ fn agents_have_clocks_of_their_own() {
     group.clocks = own;
     let refused = World::new(WorldPlan::new(Space::open(), group)).err().unwrap().to_string();
     assert!(refused.contains("asynchronous driver alone"), "{refused}");
+}
+
+/// What a group of one is told of obstacles, by its sensing.
+fn told_of(
+    model: &str,
+    obstacles: Vec<Obstacle<f64, 2>>,
+    sensing: Sensing<f64>,
+    told: ObstaclePlan<f64>,
+) -> World<f64, 2> {
+    let mut group = GroupPlan::new("one", model, Values::new(), 1, given(&[[3.0, 3.0]], &[[0.1, 0.0]]));
+    group.sensing = sensing;
+    group.obstacles = told;
+    group.contact = Some(Contact::Free);
+    let mut plan = WorldPlan::new(Space::open(), group);
+    plan.obstacles = obstacles;
+    World::new(plan).unwrap()
+}
+
+fn disc(x: f64, y: f64, radius: f64) -> Obstacle<f64, 2> {
+    Obstacle::new(Shape::new_ball(Vector([x, y]), radius).unwrap())
+}
+
+/// A laser shows outlines in pieces; an obstacle is where one comes nearest.
+#[test]
+fn a_laser_tells_of_a_disc_once_and_of_a_wall_once() {
+    let told = ObstaclePlan { within: Some(4.0), nearest: None, members: true };
+    let seen = |obstacles: Vec<Obstacle<f64, 2>>, noise: Option<ScanNoise<f64>>, nearest: Option<usize>| {
+        let Sensing::Scanner(mut robot) = robot(clustered(), None) else { unreachable!("a scanner") };
+        robot.scanner.noise = noise;
+        let told = ObstaclePlan { nearest, ..told };
+        let explained = told_of("viscido_snn", obstacles, Sensing::Scanner(robot), told).explain(0).unwrap();
+        assert_eq!(
+            explained.detected.len(),
+            explained.obstacles.len(),
+            "each is a member too, and nobody else is there"
+        );
+        let mut offsets: Vec<[f64; 2]> = explained.obstacles.iter().map(|o| [o.offset[0], o.offset[1]]).collect();
+        offsets.sort_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
+        offsets
+    };
+    let near = |found: &[[f64; 2]], expected: &[[f64; 2]], off: f64| {
+        let all = found.iter().zip(expected).all(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]) < off);
+        assert!(found.len() == expected.len() && all, "{found:?} {expected:?}");
+    };
+    near(&seen(vec![disc(5.0, 3.0, 1.0)], None, None), &[[1.0, 0.0]], 0.03);
+    let two = || vec![disc(5.0, 3.0, 1.0), disc(3.5, 5.0, 0.5)];
+    near(&seen(two(), None, Some(2)), &[[1.0, 0.0], [0.364, 1.455]], 0.1);
+    let wall = || vec![Obstacle::new(Shape::new_segment(Vector([4.5, -2.0]), Vector([4.5, 8.0])).unwrap())];
+    near(&seen(wall(), None, None), &[[1.5, 0.0]], 0.03);
+    // readings stray and are lost, so that far parts may stand apart
+    let noisy = seen(wall(), Some(ScanNoise::default()), None);
+    near(&noisy[..1], &[[1.5, 0.0]], 0.4);
+    assert!(noisy.len() <= 3 && noisy[1..].iter().all(|far| far[1].abs() > 1.0), "{noisy:?}");
+    // a corner of a room has two walls
+    let corner = [([4.0, -1.0], [4.0, 5.0]), ([4.0, 5.0], [0.0, 5.0])]
+        .map(|(from, to)| Obstacle::new(Shape::new_segment(Vector(from), Vector(to)).unwrap()));
+    near(&seen(corner.to_vec(), None, None), &[[1.0, 0.0], [0.0, 2.0]], 0.03);
+}
+
+/// Obstacles are sensed as far as members are, and virtual members are missed and hidden as real ones.
+#[test]
+fn limits_of_ideal_sensing_hold_for_obstacles_too() {
+    let told = ObstaclePlan { within: Some(9.0), nearest: None, members: true };
+    let count = |obstacles: Vec<Obstacle<f64, 2>>, ideal: Ideal<f64>| {
+        let explained = told_of("viscido_snn", obstacles, Sensing::Ideal(ideal), told).explain(0).unwrap();
+        (explained.obstacles.len(), explained.detected.len())
+    };
+    let behind = || vec![disc(0.5, 3.0, 0.5)];
+    assert_eq!(count(behind(), Ideal::default()), (1, 1));
+    assert_eq!(count(behind(), Ideal { field_of_view: Some(3.0), ..Ideal::default() }), (0, 0));
+    assert_eq!(count(behind(), Ideal { range: Some(1.5), ..Ideal::default() }), (0, 0));
+    assert_eq!(count(behind(), Ideal { range: Some(2.5), ..Ideal::default() }), (1, 1));
+    let missed = SensingNoise { miss: 1.0, ..SensingNoise::default() };
+    assert_eq!(count(behind(), Ideal { noise: missed, ..Ideal::default() }).1, 0);
+    let hidden = || vec![disc(5.0, 3.0, 0.5), disc(8.0, 3.0, 0.5)];
+    assert_eq!(count(hidden(), Ideal::default()).1, 2);
+    assert_eq!(count(hidden(), Ideal { occlusion: Occlusion::Obstacles, ..Ideal::default() }).1, 1);
+    // at the centre of a disc nothing is infinite, and the agent is not held for ever
+    let mut world = told_of("cucker_smale_2007", vec![disc(3.0, 3.0, 1.0)], Sensing::default(), told);
+    world.run(3);
+    assert!(world.frame().finite() && world.position(0) != Vector([3.0, 3.0]));
+}
+
+/// Farther obstacles than the law looks for are virtual members, and do not act as obstacles.
+#[test]
+fn a_wider_detection_does_not_widen_a_law() {
+    let velocity = |told: Option<ObstaclePlan<f64>>| {
+        let start = Start {
+            position: vec![Vector([0.0; 3])],
+            velocity: Some(vec![Vector([1.0, 0.0, 0.0])]),
+            columns: Default::default(),
+        };
+        let mut group = GroupPlan::new("one", "behaviour_selection", Values::new(), 1, Placement::Given(start));
+        group.obstacles = told.unwrap_or_default();
+        let mut plan = WorldPlan::new(Space::open(), group);
+        plan.obstacles = vec![Obstacle::new(Shape::new_ball(Vector([60.0, 1.0, 0.0]), 5.0).unwrap())];
+        let mut world = World::<f64, 3>::new(plan).unwrap();
+        world.run(5);
+        world.velocity(0)
+    };
+    let wide = ObstaclePlan { within: Some(200.0), nearest: None, members: false };
+    assert_eq!(velocity(Some(wide)), velocity(None));
 }

@@ -8,6 +8,7 @@ use space::random::{Purpose, uniform};
 use space::spelling::nearest;
 use swarm::adaptation::Varied;
 use swarm::models;
+use swarm::motion::Preset;
 use swarm::parameters::{Descriptor, Kind, ParameterError, Range, Value, Values};
 use swarm::terms;
 
@@ -311,10 +312,19 @@ impl Form for Model {
             return None;
         };
         let descriptors = (entry.parameters)();
-        let mut read = Vec::new();
+        let (mut read, mut preset) = (Vec::new(), Vec::new());
         let mut fine = true;
         if let Some(one) = below {
             let entries = desk.table(&Node { tree: one.node.tree.clone(), span: place_of(one) }, rule)?.to_vec();
+            let presets = (entry.presets)();
+            let (named, entries): (Vec<_>, Vec<_>) =
+                entries.into_iter().partition(|entry| entry.key == PRESET && !presets.is_empty());
+            for entry in &named {
+                match preset_of(presets, &entry.node, desk) {
+                    Some(values) => preset.extend(values),
+                    None => fine = false,
+                }
+            }
             for entry in &entries {
                 match parameter(&descriptors, id, entry, desk) {
                     Some((name, _)) if read.iter().any(|(other, _)| *other == name) => {
@@ -327,12 +337,33 @@ impl Form for Model {
                 }
             }
         }
+        // what is given beside a set wins over it
+        for (name, value) in preset {
+            let Some(descriptor) = descriptors.iter().find(|d| d.name == *name) else { continue };
+            if !read.iter().any(|(other, _)| other == name) {
+                let value = if in_radians(descriptor) { degrees(value.clone()) } else { value.clone() };
+                read.push(((*name).to_owned(), Given::Value(value)));
+            }
+        }
         fine.then(|| Self { id: id.to_owned(), parameters: read })
     }
     fn shape(_: &Rule<'_>) -> Shape {
         fn variants() -> Vec<Variant> {
             let variant = |entry: &models::Entry| {
-                let fields = (entry.parameters)().iter().map(field_of_model).collect();
+                let mut fields: Vec<Field> = (entry.parameters)().iter().map(field_of_model).collect();
+                let names = (entry.presets)().iter().map(|&(name, _)| (name, "")).collect::<Vec<_>>();
+                if !names.is_empty() {
+                    fields.push(Field {
+                        name: PRESET.to_owned(),
+                        alias: None,
+                        about: "A set of parameters by its name; those that are given beside it win over it."
+                            .to_owned(),
+                        shape: Shape::Word(names),
+                        unit: String::new(),
+                        default: None,
+                        required: false,
+                    });
+                }
                 Variant { name: entry.card.id, about: entry.card.about, shape: Shape::Fields(fields) }
             };
             models::LIST.iter().map(variant).collect()
@@ -351,6 +382,27 @@ impl Form for Model {
         });
         Tree::table([(self.id.clone(), Tree::table(values))])
     }
+}
+
+/// The key of a set of parameters.
+const PRESET: &str = "preset";
+
+/// The values of a set of parameters, by its name.
+fn preset_of(presets: &'static [Preset], node: &Node, desk: &mut Desk) -> Option<&'static [(&'static str, Value)]> {
+    let names: Vec<&str> = presets.iter().map(|&(name, _)| name).collect();
+    let Tree::Text(found) = &node.tree else {
+        desk.kind(node, &Rule { name: PRESET, ..Rule::FREE }, "the name of a set of parameters");
+        return None;
+    };
+    let values = presets.iter().find(|(name, _)| name == found).map(|&(_, values)| values);
+    if values.is_none() {
+        let help = match nearest(found, names.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there are {}", names.join(", ")),
+        };
+        desk.problem(&node.span, format!("no set of parameters `{found}`"), "not one of the model's sets", help);
+    }
+    values
 }
 
 fn parameter(

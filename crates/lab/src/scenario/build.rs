@@ -9,6 +9,7 @@ use space::{ColumnKind, Edge, Real, Space, Vector};
 use swarm::engine::{self as plan, GroupPlan, IndexChoice, Placement, WorldError, WorldPlan};
 use swarm::models::{Catalogue, Models};
 use swarm::parameters::{ParameterError, Scalar};
+use swarm::sensing;
 
 /// Something wrong at a path of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -434,6 +435,11 @@ fn space_of<R: Real, const D: usize>(written: &WrittenSpace) -> Result<Space<R, 
     Ok(Space { edges })
 }
 
+/// Whether obstacles hide the others from a model, where a file says nothing of its sensing.
+pub(super) fn blinded(model: &str) -> bool {
+    swarm::models::find(model).is_some_and(|entry| (entry.blinded_by_obstacles)())
+}
+
 fn driver_of(driver: &Driver) -> plan::Driver {
     match driver {
         Driver::Synchronous(_) => plan::Driver::Synchronous,
@@ -610,6 +616,9 @@ where
     }
     if let Some(sensing) = &group.sensing {
         plan.sensing = sensing.resolved();
+    } else if blinded(id) {
+        let occlusion = sensing::Occlusion::Obstacles;
+        plan.sensing = plan::Sensing::Ideal(sensing::Ideal { occlusion, ..sensing::Ideal::default() });
     }
     if let Some(obstacles) = &group.obstacles {
         plan.obstacles = obstacles.resolved();

@@ -312,6 +312,9 @@ fn selection(choice: &Choice) -> String {
 
 fn sensing(group: &Group, scenario: &Scenario) -> String {
     match &group.sensing {
+        None if super::build::blinded(&group.model.id) => {
+            " They sensed the others exactly, but not behind obstacles.".to_owned()
+        }
         None => " They sensed the others exactly.".to_owned(),
         Some(Sensing::Ideal(ideal)) => {
             let mut limits = Vec::new();

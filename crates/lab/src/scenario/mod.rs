@@ -186,7 +186,8 @@ form! {
         model: Model = need, "", Any;
         /// Where and how it begins; left out, anywhere in the space.
         start: Option<Start> = none, "", Any;
-        /// How agents sense others: everything exactly, within limits, or by a laser.
+        /// How agents sense others: everything exactly, within limits, or by a laser. Left out: everything exactly, by `control_boids` and
+        /// `control_snn` what obstacles do not hide.
         sensing: Option<Sensing> = none, "", Any;
         /// Whom the model's named sets select, in place of what the model itself says.
         select: Named<Choice> = [Named::default()], "", Any;

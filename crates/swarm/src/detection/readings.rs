@@ -388,23 +388,24 @@ impl<R: Real> Readings<R> {
 
     /// Turns the obstacle points into line segments by splitting and merging.
     ///
-    /// Points of neighbouring readings no farther apart than `gap` form a run; a run is split at the point farthest
-    /// from the line between its ends until all are within `deviation`; neighbouring pieces are then merged, from the
-    /// first on, where the line between their outer ends keeps within `deviation` of all points. A run of one point
-    /// gives no segment. Both lengths in metres.
-    pub fn find_walls(&mut self, gap: R, deviation: R) {
+    /// Points of neighbouring readings (at most two lost between them) no farther apart than `gap` form a run; a run is split at
+    /// the point farthest from the line between its ends until all are within `deviation`, which is given for the range of the
+    /// run's farthest point; neighbouring pieces are then merged, from the first on, where the line between their outer ends keeps
+    /// within `deviation` of all points. A run of one point gives no segment. All lengths in metres.
+    pub fn find_walls(&mut self, gap: R, deviation: impl Fn(R) -> R) {
         self.walls.clear();
         let mut from = 0;
         while from < self.obstacles.len() {
             let mut to = from;
             while to + 1 < self.obstacles.len()
-                && self.obstacle_readings[to + 1] == self.obstacle_readings[to] + 1
+                && self.obstacle_readings[to + 1] <= self.obstacle_readings[to] + 3
                 && (self.obstacles[to + 1] - self.obstacles[to]).length() <= gap
             {
                 to += 1;
             }
             if to > from {
-                self.split_and_merge(from, to, deviation);
+                let range = self.obstacles[from..=to].iter().map(|point| point.length()).fold(R::ZERO, R::most);
+                self.split_and_merge(from, to, deviation(range));
             }
             from = to + 1;
         }
@@ -863,7 +864,7 @@ mod tests {
         let returned = scan.ranges.iter().filter(|r| r.is_finite()).count();
         let members = scan.origin.iter().filter(|o| matches!(o, Origin::Member(2 | 6))).count();
         assert_eq!(out.obstacles.len(), returned - members);
-        out.find_walls(0.15, 0.03);
+        out.find_walls(0.15, |_| 0.03);
         let on_wall = |p: V| (p[0] - 3.5).abs() < 1e-9;
         let pieces = out.walls.iter().filter(|w| on_wall(w.0) && on_wall(w.1));
         // the bodies cut the wall; none of its pieces is bent
@@ -880,9 +881,9 @@ mod tests {
         };
         put(&[[2.0, 0.0], [2.0, 0.1], [2.0, 0.2], [2.0, 0.3], [1.9, 0.3], [1.8, 0.3]], 10);
         put(&[[1.0, 1.0]], 17);
-        put(&[[1.0, 1.1], [0.9, 1.1], [0.8, 1.1]], 19);
-        put(&[[0.5, 2.0], [0.4, 2.0]], 22);
-        out.find_walls(0.15, 0.02);
+        put(&[[1.0, 1.1], [0.9, 1.1], [0.8, 1.1]], 21);
+        put(&[[0.5, 2.0], [0.4, 2.0]], 24);
+        out.find_walls(0.15, |_| 0.02);
         let wanted =
             [([2.0, 0.0], [2.0, 0.3]), ([2.0, 0.3], [1.8, 0.3]), ([1.0, 1.1], [0.8, 1.1]), ([0.5, 2.0], [0.4, 2.0])];
         assert_eq!(out.walls, wanted.map(|(a, b)| (Vector(a), Vector(b))));
@@ -891,7 +892,7 @@ mod tests {
         let line = [[0.0, 0.0], [0.1, 0.0], [0.2, 0.0], [0.3, 0.0], [0.4, 0.0], [0.5, 0.05], [0.6, 0.1]];
         out.obstacles.extend(line.map(Vector));
         out.obstacle_readings.extend(0..7);
-        out.find_walls(1.0, 0.015);
+        out.find_walls(1.0, |_| 0.015);
         assert_eq!(out.walls.len(), 2);
         assert_eq!((out.walls[0].0, out.walls[1].1), (Vector([0.0, 0.0]), Vector([0.6, 0.1])));
         assert_eq!(out.walls[0].1, out.walls[1].0);
@@ -1013,7 +1014,7 @@ mod tests {
         member_based().detect(&scanner, &scan, &mut out);
         let first = out.inputs.clone();
         ReadingDetection::sensor_based().detect(&scanner, &scan, &mut out);
-        out.find_walls(0.1, 0.02);
+        out.find_walls(0.1, |_| 0.02);
         member_based().detect(&scanner, &scan, &mut out);
         assert_eq!((out.inputs, out.obstacles.len(), out.walls.len()), (first, 0, 0));
     }

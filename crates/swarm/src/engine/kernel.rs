@@ -12,7 +12,7 @@ use crate::physics::{Mobility, capsule};
 use crate::resources::Resources;
 use crate::selection::{self, Candidates, NamedSet, RINGS, Reach, Rings};
 use crate::sensing::robot::{Memory, Robot, RobotScratch};
-use crate::sensing::{Ideal, Occlusion, Pool};
+use crate::sensing::{Ideal, Occlusion, Pool, SensingNoise};
 use core::ops::Range;
 use space::grid::Segment;
 use space::lanes::{Lanes, Mask, Task, level, with_lanes};
@@ -148,6 +148,8 @@ pub(crate) struct Stages<R, const D: usize> {
     pub(crate) obstacle_reach: Option<R>,
     /// How many of the obstacles and walls in reach are handed on: the nearest so many.
     pub(crate) obstacles_kept: usize,
+    /// How far the law itself looks, where farther obstacles may be handed on as virtual members.
+    pub(crate) law_reach: Option<R>,
     /// Whether those are detected members too.
     pub(crate) virtual_members: bool,
     /// What it does beside its law.
@@ -592,7 +594,22 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         to.clear();
         let Some(reach) = self.obstacle_reach else { return };
         self.detect_obstacles(view, row, reach, to);
+        if let Sensing::Ideal(Ideal { field_of_view: Some(opening), .. }) = &self.sensing {
+            let limit = crate::sensing::cos_half(*opening);
+            let heading = view.now.velocity(row).unit();
+            to.retain(|near| {
+                let squared = near.offset.length_squared();
+                crate::motion::in_view::<R, R, D>(&heading.0, &near.offset.0, squared, limit)
+            });
+        }
         self.select_obstacles(to);
+    }
+    /// Leaves out what lies beyond the law's own reach.
+    #[inline(always)]
+    fn within_law(&self, to: &mut Vec<NearObstacle<R, D>>) {
+        if let Some(reach) = self.law_reach {
+            to.retain(|near| near.distance < reach);
+        }
     }
     /// Leaves the nearest so many of the obstacles detected; of equally near ones those met first.
     #[inline(always)]
@@ -769,14 +786,30 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             self.copy_sensed(view, scratch);
         }
         let (place, velocity) = (view.now.position(row), view.now.velocity(row));
+        let draws = DrawStream::new(view.seed, Purpose::Sensing, view.step, view.now.id[row]);
         scratch.make_room(scratch.found + obstacles.len());
-        for near in obstacles {
-            let k = scratch.found;
-            let curved = if near.radius.finite() { near.radius / (near.radius + near.distance) } else { R::ONE };
-            scratch.push(k as u32, near.offset, near.offset.length_squared());
+        for (n, near) in obstacles.iter().enumerate() {
             // nobody's number
-            scratch.sensed.id[k] = u32::MAX - k as u32;
-            scratch.sensed.set_position(k, place + near.offset);
+            let id = u32::MAX - n as u32;
+            let mut offset = near.offset;
+            if let Sensing::Ideal(ideal) = &self.sensing {
+                if ideal.noise.miss > R::ZERO && draws.uniform_about(id, 0) < ideal.noise.miss.to_f64() {
+                    continue;
+                }
+                // up to just before its surface
+                let to = place + offset * R::of(0.999_999);
+                if ideal.occlusion != Occlusion::None && view.obstacles.hides(Screens::ANY, place, to) {
+                    continue;
+                }
+                offset = seeming(offset, &ideal.noise, &draws, id);
+            }
+            let k = scratch.found;
+            // inside of a ball as at its surface
+            let curved = if near.radius.finite() { near.radius / (near.radius + near.distance) } else { R::ONE };
+            let curved = curved.most(R::ZERO).least(R::ONE);
+            scratch.push(k as u32, offset, offset.length_squared());
+            scratch.sensed.id[k] = id;
+            scratch.sensed.set_position(k, place + offset);
             scratch.sensed.set_velocity(k, (velocity - near.away * velocity.dot(near.away)) * curved);
             for column in &mut scratch.sensed.state {
                 column[k] = R::ZERO;
@@ -788,6 +821,9 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     fn select(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>, indirect: bool) {
         let count = scratch.found;
         scratch.sets.clear();
+        if count == 0 {
+            return;
+        }
         scratch.sets.resize(count, 0);
         let candidates = Candidates {
             offset: firsts(&scratch.offset, count),
@@ -989,11 +1025,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         if noise.distance > R::ZERO || noise.direction > R::ZERO {
             for k in 0..scratch.found {
                 let j = view.others.id[scratch.row[k] as usize];
-                let farther = (R::ONE + noise.distance * R::of(draws.normal_about(j, 1))).most(R::ZERO);
-                let offset = scratch.at(k);
-                let aside = noise.direction * R::of(draws.normal_about(j, 3));
-                let direction = offset.unit().turned_by(aside, R::of(draws.uniform_about(j, 7)) * R::TAU);
-                let seen = direction * (offset.length() * farther);
+                let seen = seeming(scratch.at(k), noise, &draws, j);
                 for a in 0..D {
                     scratch.offset[a][k] = seen.0[a];
                 }
@@ -1177,6 +1209,23 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             }
         }
     }
+}
+
+/// Where somebody seems to be, by the errors of distance and direction.
+#[inline(always)]
+fn seeming<R: Scalar, const D: usize>(
+    offset: Vector<R, D>,
+    noise: &SensingNoise<R>,
+    draws: &DrawStream,
+    j: u32,
+) -> Vector<R, D> {
+    if noise.distance <= R::ZERO && noise.direction <= R::ZERO {
+        return offset;
+    }
+    let farther = (R::ONE + noise.distance * R::of(draws.normal_about(j, 1))).most(R::ZERO);
+    let aside = noise.direction * R::of(draws.normal_about(j, 3));
+    let direction = offset.unit().turned_by(aside, R::of(draws.uniform_about(j, 7)) * R::TAU);
+    direction * (offset.length() * farther)
 }
 
 /// No normal draw is so many standard deviations from its mean: they are made of uniform ones with 53 bits.
@@ -1595,6 +1644,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
                 scratch.mark();
             }
         }
+        stages.within_law(&mut obstacles);
         stages.load(view.now, row, scratch);
         // whole blocks, where they are read by blocks
         let count = if M::MARKS { scratch.found.next_multiple_of(BLOCK) } else { scratch.found };
@@ -1687,8 +1737,11 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
     #[inline(always)]
     fn room(&self, scratch: &Scratch<R, D>) -> R {
         match (&self.stages.sensing, self.stages.obstacle_reach) {
-            (Sensing::Ideal(_), Some(reach)) if scratch.obstacles.is_empty() && self.stages.half == R::ZERO => {
-                reach - self.stages.radius
+            // a limited view does not know of all that is near
+            (Sensing::Ideal(Ideal { field_of_view: None, .. }), Some(reach))
+                if scratch.obstacles.is_empty() && self.stages.half == R::ZERO =>
+            {
+                reach.least(self.stages.law_reach.unwrap_or(reach)) - self.stages.radius
             }
             _ => R::ZERO,
         }
@@ -2255,6 +2308,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         let position = view.now.position(row);
         if stages.obstacle_reach.is_some() {
             stages.perceive_obstacles(view, row, &mut scratch.obstacles);
+            stages.within_law(&mut scratch.obstacles);
         }
         stages.load(view.now, row, scratch);
         let mut draws = Draws::new(view.seed, view.step, view.now.id[row], view.injected);

@@ -16,8 +16,8 @@ use crate::parameters::{Scalar, Value};
 use crate::physics::{Contact, Met, Mobility, capsule};
 use crate::resources::Resources;
 use crate::selection::{NamedSet, Perception, Reach, Rings};
-use crate::sensing::Occlusion;
 use crate::sensing::robot::Memory;
+use crate::sensing::{Ideal, Occlusion};
 use space::obstacles::{MOST_LENGTHS, Obstacles};
 use space::parallel::Workers;
 use space::random::{Purpose, Stream as DrawStream, unit_vector};
@@ -267,6 +267,13 @@ where
                 let set_reach =
                     sets.iter().map(|s| s.perception.reach()).reduce(Reach::and).unwrap_or(Reach::Within(R::TINY));
                 let mut sensing = group.sensing.clone();
+                if let Sensing::Ideal(ideal) = &mut sensing
+                    && ideal.occlusion == Occlusion::Obstacles
+                    && plan.obstacles.is_empty()
+                {
+                    // nothing is there that hides
+                    ideal.occlusion = Occlusion::None;
+                }
                 let uses_sets = !own_sets || model.stream_reach.is_none();
                 let mut needs = model.needs;
                 needs.identity |= sets.iter().any(|s| s.perception.identifies());
@@ -285,8 +292,11 @@ where
                         robot.widest_body = widest.most(radius);
                     }
                 }
-                check_obstacles(group, needs, model.obstacle_reach)?;
-                let obstacle_reach = group.obstacles.within.or(model.obstacle_reach);
+                check_obstacles(group, needs, model.obstacle_reach, &plan.space)?;
+                let mut obstacle_reach = group.obstacles.within.or(model.obstacle_reach);
+                if let Sensing::Ideal(Ideal { range: Some(range), .. }) = &sensing {
+                    obstacle_reach = obstacle_reach.map(|reach| reach.least(*range));
+                }
                 let group_reach = match (&sensing, model.stream_reach) {
                     (Sensing::Scanner(robot), _) => Reach::Within(robot.scanner_range() + robot.widest_body),
                     (Sensing::Ideal(ideal), _) if ideal.range.is_some() => {
@@ -344,6 +354,7 @@ where
                     reach: set_reach,
                     sensing,
                     obstacle_reach,
+                    law_reach: group.obstacles.within.and(model.obstacle_reach),
                     obstacles_kept: group.obstacles.nearest.unwrap_or(usize::MAX),
                     virtual_members: group.obstacles.members,
                     conduct,
@@ -1032,7 +1043,9 @@ fn check_clocks<R: Scalar, const D: usize>(group: &GroupPlan<R, D>, driver: Driv
         }
     }
     if let Some(period) = period.iter().find(|&&period| !(period > 0.0 && period.is_finite())) {
-        return wrong(format!("periods must be more than 0, found {period}"));
+        return wrong(format!(
+            "periods must be more than 0, found {period}; where they are drawn, `truncated` keeps them so"
+        ));
     }
     if let Driver::Asynchronous { tick, .. } = driver
         && let Some(period) = period.iter().find(|&&period| period < tick)
@@ -1119,9 +1132,13 @@ fn check_obstacles<R: Scalar, const D: usize>(
     group: &GroupPlan<R, D>,
     needs: crate::motion::Needs,
     reach: Option<R>,
+    space: &Space<R, D>,
 ) -> Result<(), WorldError> {
     let (told, model) = (&group.obstacles, &group.model);
-    let problem = if told.within.is_some_and(|within| !(within > R::ZERO && within.finite())) {
+    let half = space.periods().into_iter().flatten().fold(R::INFINITY, R::least) * R::HALF;
+    let problem = if let Some(within) = told.within.filter(|within| *within > half) {
+        format!("obstacles.within must be at most half a period, {half}, found {within}")
+    } else if told.within.is_some_and(|within| !(within > R::ZERO && within.finite())) {
         format!("obstacles.within must be more than 0, found {}", told.within.unwrap_or(R::ZERO))
     } else if told.nearest == Some(0) {
         "obstacles.nearest must be 1 or more, found 0; leave it out for all".to_owned()

@@ -16,7 +16,7 @@ use space::lanes::{Lanes, Mask};
 
 /// Calibrated parameter sets, by name: `field-v1` (the defaults; field units, discrete iterations), `metre-v1` (metres and
 /// seconds; bodies collide) and `field-mill` (cohesive and weakly aligned: a large group mills).
-pub const PRESETS: &[(&str, &[(&str, Value)])] = &[
+const PRESETS: &[Preset] = &[
     ("field-v1", &[]),
     (
         "metre-v1",
@@ -99,7 +99,7 @@ impl<R: Scalar> Law<R> for ControlBoids<R> {
                     D = w_h h' + w_s unit(s) + f (w_a unit(a) + w_c unit(c)) + w_o o\n\
                     h_i' = turn_toward(h_i, unit(D), theta_max);  x_i' = x_i + v h_i'",
         stages: Stages {
-            sensing: "ideal within the radius; hidden behind walls and discs where the group's sensing has `occlusion`",
+            sensing: "ideal within the radius; hidden behind walls and discs, unless the group's sensing says otherwise",
             detection: "ideal",
             selection: "neighbours = distance_based(0, R), R included, within angle(alpha); too_near = those of distance below r_s",
             motion: "weighted unit vectors",
@@ -107,7 +107,7 @@ impl<R: Scalar> Law<R> for ControlBoids<R> {
             obstacles: "walls and discs nearer than d_w, unless the member is leaving them",
         },
         departures: "a reconstruction: the source names the model only; values were calibrated on its tables. The line of sight \
-                     is the group's ideal sensing with occlusion. Parameter sets: field-v1 (defaults), metre-v1, field-mill",
+                     is the group's ideal sensing with occlusion, where a file says nothing else. Parameter sets: field-v1 (defaults), metre-v1, field-mill",
         edge: "nobody seen: wander and walls remain; zero D: keeps its heading; a coincident neighbour does not separate, but \
                counts and aligns",
         random: &[RandomQuantity { name: "wander", about: "angle, normal with SD eta; behaviour slots 0 and 1" }],
@@ -124,6 +124,12 @@ impl<R: Scalar> Law<R> for ControlBoids<R> {
             environment: "bounded obstacles",
         },
     };
+    fn blinded_by_obstacles() -> bool {
+        true
+    }
+    fn presets() -> &'static [Preset] {
+        PRESETS
+    }
     fn time_step(&self) -> R {
         self.time_step
     }

@@ -55,7 +55,7 @@ impl<R: Scalar> Law<R> for ControlSnn<R> {
                     rho_ik <= r_rho:  D = h_i + w_o o, and no step;  nobody:  D = rot(h_i, wander) + w_o o,  wander = eta N(0,1)\n\
                     h_i' = turn_toward(h_i, unit(D), theta_max);  x_i' = x_i + v h_i'",
         stages: Stages {
-            sensing: "ideal within the radius; hidden behind walls and discs where the group's sensing has `occlusion`",
+            sensing: "ideal within the radius; hidden behind walls and discs, unless the group's sensing says otherwise",
             detection: "ideal",
             selection: "neighbours = distance_based(0, R), R included, within angle(alpha), of these the nearest",
             motion: "weighted unit vectors",
@@ -63,7 +63,7 @@ impl<R: Scalar> Law<R> for ControlSnn<R> {
             obstacles: "walls and discs nearer than d_w, unless the member is leaving them",
         },
         departures: "a reconstruction: the source names the model only; values were calibrated on its tables. The line of sight is the group's \
-                     ideal sensing with occlusion. Who is near enough keeps its velocity, as the bearer of its heading, and does \
+                     ideal sensing with occlusion, where a file says nothing else. Who is near enough keeps its velocity, as the bearer of its heading, and does \
                      not move",
         edge: "the nearest coincident: near; zero D: keeps its heading; nobody seen: on, with wander and walls",
         random: &[RandomQuantity {
@@ -85,6 +85,9 @@ impl<R: Scalar> Law<R> for ControlSnn<R> {
     };
     fn needs(&self) -> Needs {
         Needs::default()
+    }
+    fn blinded_by_obstacles() -> bool {
+        true
     }
     fn time_step(&self) -> R {
         self.time_step

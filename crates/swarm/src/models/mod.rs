@@ -3,7 +3,7 @@
 
 use crate::card::Card;
 use crate::engine::{Compiled, Kernel, Listed, SideBySide, Stages, Streamed, World, WorldError, WorldPlan};
-use crate::motion::{Abreast, Law, Model, Needs, Single, Stream, Summed, Variant};
+use crate::motion::{Abreast, Law, Model, Needs, Preset, Single, Stream, Summed, Variant};
 use crate::parameters::{Descriptor, Kind, Parameter, ParameterError, Parameters, Points, Scalar, Values};
 use crate::physics::Contact;
 use crate::selection::NamedSet;
@@ -203,6 +203,10 @@ pub struct Entry {
     pub parameters: fn() -> Vec<Descriptor>,
     /// Its declared columns.
     pub columns: fn() -> &'static [Column],
+    /// Named sets of its parameters.
+    pub presets: fn() -> &'static [Preset],
+    /// Whether obstacles hide the others from it, where a file says nothing of its sensing.
+    pub blinded_by_obstacles: fn() -> bool,
 }
 
 /// The models that work in a space of `D` dimensions.
@@ -230,6 +234,8 @@ macro_rules! models {
             dimensions: &[$($d),+],
             parameters: <$file::$name<f64> as Parameters>::descriptors,
             columns: <$file::$name<f64> as Law<f64>>::columns,
+            presets: <$file::$name<f64> as Law<f64>>::presets,
+            blinded_by_obstacles: <$file::$name<f64> as Law<f64>>::blinded_by_obstacles,
         },)*];
         models!(@catalogue f32 1 $($way $file::$name in [$($d),+];)*);
         models!(@catalogue f64 1 $($way $file::$name in [$($d),+];)*);

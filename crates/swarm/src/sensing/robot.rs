@@ -82,7 +82,11 @@ impl<R: Scalar> Robot<R> {
         }
         let margin = R::of(MATCH_MARGIN);
         scratch.errors += scratch.readings.count_errors(&self.scanner, &scratch.scan, &scratch.bodies, margin);
-        scratch.readings.find_walls(R::of(0.15), R::of(0.05));
+        scratch.readings.find_walls(R::of(0.15), |range| {
+            // readings stray by so much; what strays less is no corner
+            let strays = self.scanner.noise.map_or(R::ZERO, |noise| noise.deviation(range));
+            R::of(0.05).most(R::of(4.0) * strays)
+        });
         scratch.found.clear();
         scratch
             .found
@@ -163,14 +167,28 @@ impl<R: Scalar> RobotScratch<R> {
         let offset = Vector(core::array::from_fn(|a| if a < D { offset.0[a] } else { R::ZERO }));
         self.bodies.push(Body { offset, radius, albedo: R::of(Body::<f64>::WRAPPED), member });
     }
-    /// The walls found in the last scan that lie within a reach, each by its nearest point.
+    /// What the last scan shows of obstacles within a reach: every place at which an outline comes nearest. So a disc, of which the
+    /// pieces of the outline are many, is one obstacle, and a room has four walls.
     pub(crate) fn obstacles<const D: usize>(&self, reach: R) -> impl Iterator<Item = NearObstacle<R, D>> + '_ {
-        self.readings.walls.iter().filter_map(move |&(from, to)| {
+        let walls = &self.readings.walls;
+        // where along a piece it is nearest, from 0 to 1
+        let nearest = |(from, to): (Vector<R, 2>, Vector<R, 2>)| {
             let along = to - from;
-            let share = (-from.dot(along) / along.length_squared().most(R::TINY)).clamped(R::ZERO, R::ONE);
-            let point = from + along * share;
+            (-from.dot(along) / along.length_squared().most(R::TINY)).clamped(R::ZERO, R::ONE)
+        };
+        walls.iter().enumerate().filter_map(move |(k, &(from, to))| {
+            let share = nearest((from, to));
+            let before = k.checked_sub(1).map(|k| walls[k]).filter(|before| before.1 == from);
+            let after = walls.get(k + 1).copied().filter(|after| after.0 == to);
+            // at an end that two pieces share, it comes nearest if it does so for both; the second one tells of it
+            let comes_nearer = match (before, after) {
+                (Some(before), _) if share <= R::ZERO => nearest(before) < R::ONE,
+                (_, Some(_)) if share >= R::ONE => true,
+                _ => false,
+            };
+            let point = from + (to - from) * share;
             let distance = point.length();
-            (distance < reach).then(|| {
+            (!comes_nearer && distance < reach).then(|| {
                 let wide = |v: Vector<R, 2>| Vector(core::array::from_fn(|a| if a < 2 { v.0[a] } else { R::ZERO }));
                 NearObstacle { offset: wide(point), distance, away: wide(-point.unit()), radius: R::INFINITY }
             })

@@ -50,6 +50,10 @@ impl<R: Real> Default for ScanNoise<R> {
 }
 
 impl<R: Real> ScanNoise<R> {
+    /// Standard deviation of a reading of this range, in metres.
+    pub fn deviation(&self, range: R) -> R {
+        if range < self.near_range { self.near_deviation } else { self.far_deviation * range }
+    }
     /// Probability that a reading is lost, from the cosine of its angle of incidence.
     pub fn loss(&self, cos_incidence: R) -> R {
         let right_angle = R::PI * R::HALF;
@@ -330,9 +334,7 @@ impl<R: Real> Scanner<R> {
             let about = q as u32;
             lost = draws.uniform_about(about, LOSS_SLOT) < noise.loss(out.cosines[q]).to_f64();
             if !lost {
-                let deviation =
-                    if range < noise.near_range { noise.near_deviation } else { noise.far_deviation * range };
-                range += deviation * R::of(draws.normal_about(about, RANGE_SLOT));
+                range += noise.deviation(range) * R::of(draws.normal_about(about, RANGE_SLOT));
                 let error = noise.intensity_deviation * R::of(draws.normal_about(about, INTENSITY_SLOT));
                 intensity = (intensity + error).most(R::ZERO);
             }
