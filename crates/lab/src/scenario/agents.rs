@@ -553,3 +553,53 @@ fn shape_of(kind: &Kind, range: Range) -> Shape {
         }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use crate::scenario::build;
+
+    const FILE: &str = r#"
+kind = "scenario"
+title = "Two beside a wall"
+time.duration = 4
+[space]
+dimensions = 2
+edges = "walls"
+size = 20
+[[obstacle]]
+shape.segment = { from = [10, 2], to = [10, 18] }
+[group.boids]
+count = 2
+start = { place.points = [[9, 10], [11, 10]] }
+model.control_boids = { preset = "field-mill", alignment = 2 }
+"#;
+
+    #[test]
+    fn a_named_set_fills_in_what_is_not_given() {
+        let read = build::read("file", FILE, &[]).unwrap();
+        let model = &read.scenario.group.0[0].1.model;
+        let values = model.values(2, 1, 0);
+        let of = |name: &str| values.get(name).unwrap().clone();
+        assert_eq!([of("alignment"), of("cohesion"), of("radius")], [2.0, 2.0, 25.0].map(Into::into));
+        for (wrong, says) in [("\"field-mil\"", "did you mean `field-mill`?"), ("3", "the name of a set")] {
+            let text = FILE.replace("\"field-mill\"", wrong);
+            let problems = build::read("file", &text, &[]).unwrap_err().to_string();
+            assert!(problems.contains(says), "{problems}");
+        }
+        let none = FILE.replace("control_boids", "control_snn").replace(", alignment = 2", "");
+        let problems = build::read("file", &none, &[]).unwrap_err().to_string();
+        assert!(problems.contains("no parameter `preset`"), "{problems}");
+    }
+
+    #[test]
+    fn control_models_look_through_walls_only_where_a_file_says_so() {
+        let seen = |text: &str| {
+            let read = build::read("file", text, &[]).unwrap();
+            build::world::<f64, 2>(&read.scenario, 5, 1).unwrap().explain(0).unwrap().detected.len()
+        };
+        assert_eq!(seen(FILE), 0);
+        assert_eq!(seen(&FILE.replace("count = 2", "count = 2\nsensing.ideal = {}")), 1);
+        assert_eq!(seen(&FILE.replace("from = [10, 2]", "from = [10, 12]")), 1);
+    }
+}
