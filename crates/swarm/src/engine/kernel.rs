@@ -736,7 +736,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             closest(view, row, view.now.position(row), count, scratch);
             return false;
         }
-        let indirect = match &self.sensing {
+        match &self.sensing {
             Sensing::Ideal(ideal) => {
                 let reach = match ideal.range {
                     Some(range) => match self.reach {
@@ -767,8 +767,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 self.scan(robot, view, row, scratch, memory);
                 true
             }
-        };
-        indirect
+        }
     }
     /// Makes a member of every obstacle handed on: it stands at the obstacle's nearest point and moves with the agent's own motion
     /// along the surface, slower where that is curved (Olfati-Saber 2006). As [`Self::detect`] from then on, with the members in
