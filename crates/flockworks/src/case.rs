@@ -7,13 +7,12 @@ use space::obstacles::Obstacle;
 use space::shape::Shape;
 use space::{ColumnKind, Real, Space, Vector};
 use std::collections::BTreeMap;
-use swarm::engine::{GroupPlan, Placement, Sensing, Start};
+use swarm::engine::{GroupPlan, Placement, Start};
 use swarm::models::{Catalogue, Entry, Models};
 use swarm::motion::Injected;
 use swarm::parameters::{ParameterError, Scalar, Value, Values};
 use swarm::physics::Contact;
 use swarm::resources::{Gain, Metabolism, ResourcePlan, Respawn};
-use swarm::sensing::{Ideal, Occlusion};
 use swarm::{World, WorldError, WorldPlan};
 
 const CASE_KEYS: [&str; 9] = ["model", "case", "dim", "space", "params", "aux", "state", "expected", "note"];
@@ -452,9 +451,7 @@ impl Case {
         let id = self.entry.card.id;
         let mut group = GroupPlan::new("members", id, self.parameters.clone(), self.agents(), Placement::Given(start));
         group.contact = self.contact;
-        if (self.entry.blinded_by_obstacles)() {
-            group.sensing = Sensing::Ideal(Ideal { occlusion: Occlusion::Obstacles, ..Ideal::default() });
-        }
+        group.sensing = self.entry.default_sensing();
         let mut plan = WorldPlan::new(space, group);
         for solid in &self.solids {
             let shape = match solid {

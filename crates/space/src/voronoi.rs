@@ -128,7 +128,7 @@ pub fn neighbours_around<R: Real, const D: usize>(
     neighbours(offsets, scratch, out)?;
     // a copy that is no minimum image is half a period away at least, less what is rounded
     let half = periods.iter().flatten().map(|period| 0.499 * period.to_f64()).fold(f64::INFINITY, f64::min);
-    if offsets.is_empty() || scratch.reach < half * half {
+    if offsets.is_empty() || !half.is_finite() || scratch.reach < half * half {
         return Ok(());
     }
     let members = offsets.len();

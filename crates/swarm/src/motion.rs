@@ -450,7 +450,8 @@ impl<R: Real, const D: usize> Percepts<'_, R, D> {
         }
         (whole..self.len()).filter(|&k| self.is_in(k, set)).for_each(|k| each(k, self.direction(k)));
     }
-    /// Velocity of percept `k`; the agent's own where it is not known yet.
+    /// Velocity of percept `k`; the agent's own where it is not known yet, zero where readings are not
+    /// associated over time.
     #[inline(always)]
     pub fn velocity(&self, k: usize) -> Vector<R, D> {
         self.others.velocity(self.row[k] as usize)

@@ -655,7 +655,8 @@ fn obstacles_handed_on_are_the_nearest_and_what_cannot_be_is_refused() {
     assert_eq!(all.len(), 8);
     assert_eq!(seen(told(None, Some(3)), "control_boids").unwrap(), all[..3]);
     assert_eq!(seen(told(Some(2.6), None), "control_boids").unwrap(), all[..all.partition_point(|&d| d < 2.6)]);
-    assert_eq!(seen(told(Some(2.6), Some(1)), "vicsek_1995").unwrap(), all[..1]);
+    // a law that looks at none is told of none: they can be members for it
+    assert!(seen(told(Some(2.6), Some(1)), "vicsek_1995").unwrap().is_empty());
     let members = ObstaclePlan { within: None, nearest: None, members: true };
     for (told, model, says) in [
         (told(Some(0.0), None), "vicsek_1995", "within must be more than 0"),
@@ -672,7 +673,7 @@ fn obstacles_handed_on_are_the_nearest_and_what_cannot_be_is_refused() {
 /// Whoever stands somewhat beyond the reach may seem to be inside it, as whoever stands inside may seem to be beyond.
 #[test]
 fn errors_of_distances_go_both_ways() {
-    let share = |distance: f64| {
+    let share = |distance: f64, range: Option<f64>| {
         let mut group = GroupPlan::new(
             "pair",
             "couzin_2002",
@@ -682,6 +683,7 @@ fn errors_of_distances_go_both_ways() {
         );
         group.sensing = Sensing::Ideal(Ideal {
             noise: SensingNoise { distance: 0.1, direction: 0.0, heading: 0.0, miss: 0.0 },
+            range,
             ..Ideal::default()
         });
         let mut seen = 0;
@@ -702,9 +704,12 @@ fn errors_of_distances_go_both_ways() {
         };
         reach
     };
-    let (outside, inside) = (share(reach / 0.9), share(reach / 1.1));
-    assert!((outside - 0.159).abs() < 0.06 && (inside - 0.841).abs() < 0.06, "{outside} {inside}");
-    assert_eq!((share(reach * 2.0), share(reach * 0.5)), (0.0, 1.0));
+    for range in [None, Some(2.0 * reach)] {
+        let (outside, inside) = (share(reach / 0.9, range), share(reach / 1.1, range));
+        assert!((outside - 0.159).abs() < 0.06 && (inside - 0.841).abs() < 0.06, "{outside} {inside}");
+        assert_eq!((share(reach * 1.99, range), share(reach * 0.5, range)), (0.0, 1.0));
+    }
+    assert_eq!(share(reach / 0.9, Some(reach)), 0.0, "beyond the range of sensing nobody is seen");
 }
 
 /// A member seen for the first time is taken to move as oneself: it changes no velocity that follows from differences.
@@ -807,12 +812,8 @@ fn a_laser_tells_of_a_disc_once_and_of_a_wall_once() {
         robot.scanner.noise = noise;
         let told = ObstaclePlan { nearest, ..told };
         let explained = told_of("viscido_snn", obstacles, Sensing::Scanner(robot), told).explain(0).unwrap();
-        assert_eq!(
-            explained.detected.len(),
-            explained.obstacles.len(),
-            "each is a member too, and nobody else is there"
-        );
-        let mut offsets: Vec<[f64; 2]> = explained.obstacles.iter().map(|o| [o.offset[0], o.offset[1]]).collect();
+        // nobody else is there
+        let mut offsets: Vec<[f64; 2]> = explained.detected.iter().map(|o| [o.offset[0], o.offset[1]]).collect();
         offsets.sort_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
         offsets
     };
@@ -840,19 +841,18 @@ fn a_laser_tells_of_a_disc_once_and_of_a_wall_once() {
 fn limits_of_ideal_sensing_hold_for_obstacles_too() {
     let told = ObstaclePlan { within: Some(9.0), nearest: None, members: true };
     let count = |obstacles: Vec<Obstacle<f64, 2>>, ideal: Ideal<f64>| {
-        let explained = told_of("viscido_snn", obstacles, Sensing::Ideal(ideal), told).explain(0).unwrap();
-        (explained.obstacles.len(), explained.detected.len())
+        told_of("viscido_snn", obstacles, Sensing::Ideal(ideal), told).explain(0).unwrap().detected.len()
     };
     let behind = || vec![disc(0.5, 3.0, 0.5)];
-    assert_eq!(count(behind(), Ideal::default()), (1, 1));
-    assert_eq!(count(behind(), Ideal { field_of_view: Some(3.0), ..Ideal::default() }), (0, 0));
-    assert_eq!(count(behind(), Ideal { range: Some(1.5), ..Ideal::default() }), (0, 0));
-    assert_eq!(count(behind(), Ideal { range: Some(2.5), ..Ideal::default() }), (1, 1));
+    assert_eq!(count(behind(), Ideal::default()), 1);
+    assert_eq!(count(behind(), Ideal { field_of_view: Some(3.0), ..Ideal::default() }), 0);
+    assert_eq!(count(behind(), Ideal { range: Some(1.5), ..Ideal::default() }), 0);
+    assert_eq!(count(behind(), Ideal { range: Some(2.5), ..Ideal::default() }), 1);
     let missed = SensingNoise { miss: 1.0, ..SensingNoise::default() };
-    assert_eq!(count(behind(), Ideal { noise: missed, ..Ideal::default() }).1, 0);
+    assert_eq!(count(behind(), Ideal { noise: missed, ..Ideal::default() }), 0);
     let hidden = || vec![disc(5.0, 3.0, 0.5), disc(8.0, 3.0, 0.5)];
-    assert_eq!(count(hidden(), Ideal::default()).1, 2);
-    assert_eq!(count(hidden(), Ideal { occlusion: Occlusion::Obstacles, ..Ideal::default() }).1, 1);
+    assert_eq!(count(hidden(), Ideal::default()), 2);
+    assert_eq!(count(hidden(), Ideal { occlusion: Occlusion::Obstacles, ..Ideal::default() }), 1);
     // at the centre of a disc nothing is infinite, and the agent is not held for ever
     let mut world = told_of("cucker_smale_2007", vec![disc(3.0, 3.0, 1.0)], Sensing::default(), told);
     world.run(3);
@@ -878,4 +878,24 @@ fn a_wider_detection_does_not_widen_a_law() {
     };
     let wide = ObstaclePlan { within: Some(200.0), nearest: None, members: false };
     assert_eq!(velocity(Some(wide)), velocity(None));
+}
+
+/// A law that looks at everyone does so beside a group whose reach makes cells, under every index.
+#[test]
+fn who_needs_everyone_meets_everyone_beside_a_group_with_a_reach() {
+    let run = |index: IndexChoice, threads: usize| {
+        let place = |name: &str, model: &str, low: f64| {
+            let uniform = Placement::Uniform { low: Vector([low, 0.0]), high: Vector([low + 30.0, 40.0]) };
+            GroupPlan::new(name, model, Values::new(), 150, uniform)
+        };
+        let mut plan = WorldPlan::<f64, 2>::new(Space::open(), place("flock", "vicsek_1995", 0.0));
+        plan.groups.push(place("herd", "viscido_lch", 20.0));
+        (plan.index, plan.threads, plan.seed) = (index, threads, 4);
+        let mut world = World::new(plan).unwrap();
+        world.step();
+        (0..300).map(|id| world.position(id)).collect::<Vec<_>>()
+    };
+    let (pairs, cells) = (run(IndexChoice::Pairs, 1), run(IndexChoice::Cells, 1));
+    assert!(pairs.iter().zip(&cells).all(|(a, b)| (*a - *b).length() < 1e-9));
+    assert_eq!(cells, run(IndexChoice::Cells, 2));
 }

@@ -9,7 +9,6 @@ use space::{ColumnKind, Edge, Real, Space, Vector};
 use swarm::engine::{self as plan, GroupPlan, IndexChoice, Placement, WorldError, WorldPlan};
 use swarm::models::{Catalogue, Models};
 use swarm::parameters::{ParameterError, Scalar};
-use swarm::sensing;
 
 /// Something wrong at a path of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -435,9 +434,12 @@ fn space_of<R: Real, const D: usize>(written: &WrittenSpace) -> Result<Space<R, 
     Ok(Space { edges })
 }
 
-/// Whether obstacles hide the others from a model, where a file says nothing of its sensing.
-pub(super) fn blinded(model: &str) -> bool {
-    swarm::models::find(model).is_some_and(|entry| (entry.blinded_by_obstacles)())
+/// Whether obstacles hide the others from a model, where a file says nothing of its sensing. (Elongated bodies hide behind nothing.)
+pub(super) fn blinded(model: &str, scenario: &Scenario) -> bool {
+    let round = |group: &Group| group.physics.as_ref().is_none_or(|physics| physics.length.is_none());
+    scenario.group.0.iter().all(|(_, group)| round(group))
+        && (!scenario.obstacle.is_empty() || !scenario.scatter.0.is_empty())
+        && swarm::models::find(model).is_some_and(|entry| (entry.blinded_by_obstacles)())
 }
 
 fn driver_of(driver: &Driver) -> plan::Driver {
@@ -616,9 +618,8 @@ where
     }
     if let Some(sensing) = &group.sensing {
         plan.sensing = sensing.resolved();
-    } else if blinded(id) {
-        let occlusion = sensing::Occlusion::Obstacles;
-        plan.sensing = plan::Sensing::Ideal(sensing::Ideal { occlusion, ..sensing::Ideal::default() });
+    } else if let Some(entry) = swarm::models::find(id).filter(|_| blinded(id, scenario)) {
+        plan.sensing = entry.default_sensing();
     }
     if let Some(obstacles) = &group.obstacles {
         plan.obstacles = obstacles.resolved();

@@ -312,7 +312,7 @@ fn selection(choice: &Choice) -> String {
 
 fn sensing(group: &Group, scenario: &Scenario) -> String {
     match &group.sensing {
-        None if super::build::blinded(&group.model.id) => {
+        None if super::build::blinded(&group.model.id, scenario) => {
             " They sensed the others exactly, but not behind obstacles.".to_owned()
         }
         None => " They sensed the others exactly.".to_owned(),

@@ -148,7 +148,7 @@ pub(crate) struct Stages<R, const D: usize> {
     pub(crate) obstacle_reach: Option<R>,
     /// How many of the obstacles and walls in reach are handed on: the nearest so many.
     pub(crate) obstacles_kept: usize,
-    /// How far the law itself looks, where farther obstacles may be handed on as virtual members.
+    /// How far the law itself looks, 0 where it does not, where farther obstacles may be handed on as virtual members.
     pub(crate) law_reach: Option<R>,
     /// Whether those are detected members too.
     pub(crate) virtual_members: bool,
@@ -590,17 +590,23 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     }
     /// Obstacles and walls near an agent: those detected, and of these the ones selected.
     #[inline(never)]
-    fn perceive_obstacles(&self, view: &View<'_, R, D>, row: usize, to: &mut Vec<NearObstacle<R, D>>) {
+    fn perceive_obstacles(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) {
+        let Scratch { obstacles: to, robot, .. } = scratch;
         to.clear();
         let Some(reach) = self.obstacle_reach else { return };
-        self.detect_obstacles(view, row, reach, to);
-        if let Sensing::Ideal(Ideal { field_of_view: Some(opening), .. }) = &self.sensing {
-            let limit = crate::sensing::cos_half(*opening);
-            let heading = view.now.velocity(row).unit();
-            to.retain(|near| {
-                let squared = near.offset.length_squared();
-                crate::motion::in_view::<R, R, D>(&heading.0, &near.offset.0, squared, limit)
-            });
+        match &self.sensing {
+            Sensing::Scanner(_) => to.extend(robot.obstacles(reach)),
+            Sensing::Ideal(ideal) => {
+                self.detect_obstacles(view, row, reach, to);
+                if let Some(opening) = ideal.field_of_view {
+                    let limit = crate::sensing::cos_half(opening);
+                    let heading = view.now.velocity(row).unit();
+                    to.retain(|near| {
+                        let squared = near.offset.length_squared();
+                        crate::motion::in_view::<R, R, D>(&heading.0, &near.offset.0, squared, limit)
+                    });
+                }
+            }
         }
         self.select_obstacles(to);
     }
@@ -608,7 +614,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
     #[inline(always)]
     fn within_law(&self, to: &mut Vec<NearObstacle<R, D>>) {
         if let Some(reach) = self.law_reach {
-            to.retain(|near| near.distance < reach);
+            to.retain(|near| reach > R::ZERO && near.distance < reach);
         }
     }
     /// Leaves the nearest so many of the obstacles detected; of equally near ones those met first.
@@ -642,22 +648,26 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
             }
         }
     }
-    /// As [`Self::perceive_obstacles`], from the scan where there was one.
+    /// The three stages before the law, for members and obstacles. Returns whether the members stand in `scratch.sensed`.
     #[inline(always)]
-    fn obstacles_of_decision(
+    fn perceive(
         &self,
         view: &View<'_, R, D>,
         row: usize,
-        to: &mut Vec<NearObstacle<R, D>>,
-        scratch: &Scratch<R, D>,
-    ) {
-        if let (Sensing::Scanner(_), Some(reach)) = (&self.sensing, self.obstacle_reach) {
-            to.clear();
-            to.extend(scratch.robot.obstacles(reach));
-            self.select_obstacles(to);
-        } else {
-            self.perceive_obstacles(view, row, to);
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+        quick: bool,
+    ) -> bool {
+        let mut indirect = self.detect(view, row, scratch, memory, quick);
+        self.perceive_obstacles(view, row, scratch);
+        if self.virtual_members {
+            let obstacles = core::mem::take(&mut scratch.obstacles);
+            self.add_virtual_members(view, row, &obstacles, scratch, indirect);
+            scratch.obstacles = obstacles;
+            indirect = true;
         }
+        self.select(view, row, scratch, indirect);
+        indirect
     }
     /// As [`Self::detect_obstacles`], from that point of the body's axis that is nearest to each.
     #[cold]
@@ -738,23 +748,20 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         }
         match &self.sensing {
             Sensing::Ideal(ideal) => {
-                let reach = match ideal.range {
-                    Some(range) => match self.reach {
-                        Reach::Within(r) => Reach::Within(r.least(range)),
-                        // a rank among those in range
-                        _ => Reach::Within(range),
-                    },
-                    None if ideal.is_perfect() => self.reach,
+                let wanted = match self.reach {
                     // errors, views and hiding change who the nearest are: look at everyone
-                    None => match self.reach {
-                        Reach::Nearest(_) => Reach::All,
-                        // whoever stands farther may seem to be within it
-                        Reach::Within(reach) if ideal.noise.distance > R::ZERO => {
-                            let nearest = R::ONE - ideal.noise.distance * R::of(MOST_DEVIATIONS);
-                            if nearest > R::ZERO { Reach::Within(reach / nearest) } else { Reach::All }
-                        }
-                        reach => reach,
-                    },
+                    Reach::Nearest(_) if !ideal.is_perfect() => Reach::All,
+                    // whoever stands farther may seem to be within it
+                    Reach::Within(reach) if ideal.noise.distance > R::ZERO => {
+                        let nearest = R::ONE - ideal.noise.distance * R::of(MOST_DEVIATIONS);
+                        if nearest > R::ZERO { Reach::Within(reach / nearest) } else { Reach::All }
+                    }
+                    reach => reach,
+                };
+                let reach = match (ideal.range, wanted) {
+                    (Some(range), Reach::Within(reach)) => Reach::Within(reach.least(range)),
+                    (Some(range), _) => Reach::Within(range),
+                    (None, reach) => reach,
                 };
                 if self.elongated {
                     self.candidates_between_axes(view, row, reach, scratch);
@@ -788,8 +795,8 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
         let draws = DrawStream::new(view.seed, Purpose::Sensing, view.step, view.now.id[row]);
         scratch.make_room(scratch.found + obstacles.len());
         for (n, near) in obstacles.iter().enumerate() {
-            // nobody's number
-            let id = u32::MAX - n as u32;
+            // nobody's number, and draws that are nobody else's: the last one has those that are about nobody
+            let id = u32::MAX - 1 - n as u32;
             let mut offset = near.offset;
             if let Sensing::Ideal(ideal) = &self.sensing {
                 if ideal.noise.miss > R::ZERO && draws.uniform_about(id, 0) < ideal.noise.miss.to_f64() {
@@ -1030,7 +1037,7 @@ impl<R: Scalar, const D: usize> Stages<R, D> {
                 }
                 scratch.squared[k] = seen.length_squared();
             }
-            // what seems to be beyond the reach of the sets is in none of them, and laws rely on that
+            // what seems to be beyond the reach of the sets is in none of them
             if let Reach::Within(reach) = self.reach {
                 scratch.retain(|s, k| s.squared[k] < reach * reach);
             }
@@ -1404,7 +1411,7 @@ impl<R: Scalar, const D: usize, const WAY: u8> Task<R> for Closest<'_, '_, R, D,
         // the least of every sixteenth: as many different members stand within the last of any so many of these
         let mut least = [L::splat(R::INFINITY); BLOCK];
         for first in (0..end).step_by(BLOCK) {
-            let mut others = mask_of(end - first);
+            let mut others = mask_of((end - first).min(BLOCK));
             if row.wrapping_sub(first) < BLOCK {
                 others &= !(1 << (row - first));
             }
@@ -1627,23 +1634,17 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             Some(rings) if quick => stages.mark(view, row, heading, rings, scratch),
             _ => false,
         };
-        if !marked {
-            indirect = stages.detect(view, row, scratch, memory, trace.is_none());
-        }
         let position = view.now.position(row);
-        let mut obstacles = core::mem::take(&mut scratch.obstacles);
-        stages.obstacles_of_decision(view, row, &mut obstacles, scratch);
-        if !marked {
-            if stages.virtual_members {
-                stages.add_virtual_members(view, row, &obstacles, scratch, indirect);
-                indirect = true;
-            }
-            stages.select(view, row, scratch, indirect);
+        if marked {
+            stages.perceive_obstacles(view, row, scratch);
+        } else {
+            indirect = stages.perceive(view, row, scratch, memory, trace.is_none());
             if M::MARKS {
                 scratch.mark();
             }
         }
-        stages.within_law(&mut obstacles);
+        stages.within_law(&mut scratch.obstacles);
+        let obstacles = core::mem::take(&mut scratch.obstacles);
         stages.load(view.now, row, scratch);
         // whole blocks, where they are read by blocks
         let count = if M::MARKS { scratch.found.next_multiple_of(BLOCK) } else { scratch.found };
@@ -1868,15 +1869,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         self.law.performed(own, velocity);
     }
     fn neighbours(&self, view: &View<'_, R, D>, row: usize, scratch: &mut Scratch<R, D>) -> usize {
-        let mut indirect = self.stages.detect(view, row, scratch, None, true);
-        if self.stages.virtual_members {
-            let mut obstacles = core::mem::take(&mut scratch.obstacles);
-            self.stages.obstacles_of_decision(view, row, &mut obstacles, scratch);
-            self.stages.add_virtual_members(view, row, &obstacles, scratch, indirect);
-            scratch.obstacles = obstacles;
-            indirect = true;
-        }
-        self.stages.select(view, row, scratch, indirect);
+        self.stages.perceive(view, row, scratch, None, true);
         scratch.sets.iter().filter(|&&bits| bits != 0).count()
     }
 }
@@ -2130,13 +2123,15 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         let mut row = rows.start;
         let mut each = [<M::Sums<L> as LaneSums<R, L>>::zero_one(); WIDEST];
         let mut together = Together::<R, L, D>::new(view.others, view.heading, &self.listed.stages.columns);
-        let mut line = match view.index {
-            Index::Sorted(grid) if row < rows.end => grid.line_at(row),
-            _ => 0,
+        // cells reach as far as laws with a reach do; who needs everyone meets everyone
+        let sorted = match view.index {
+            Index::Sorted(grid) if self.law().reach().finite() => Some(grid),
+            _ => None,
         };
+        let mut line = sorted.filter(|_| row < rows.end).map_or(0, |grid| grid.line_at(row));
         while row < rows.end {
             let mut count = (rows.end - row).min(L::WIDTH);
-            if let Index::Sorted(grid) = view.index {
+            if let Some(grid) = sorted {
                 while grid.line(line).end <= row {
                     line += 1;
                 }
@@ -2158,7 +2153,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             }
             let block = Block { first: row, place, me: MeLanes { velocity, heading, own: &own } };
             let mut sums = M::Sums::<L>::zero();
-            if let Index::Sorted(grid) = view.index {
+            if let Some(grid) = sorted {
                 let mut segments = core::mem::take(&mut scratch.segments);
                 grid.around(view.now, line, row..row + count, &mut segments);
                 for s in &segments {
@@ -2306,7 +2301,7 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
         let stages = &self.listed.stages;
         let position = view.now.position(row);
         if stages.obstacle_reach.is_some() {
-            stages.perceive_obstacles(view, row, &mut scratch.obstacles);
+            stages.perceive_obstacles(view, row, scratch);
             stages.within_law(&mut scratch.obstacles);
         }
         stages.load(view.now, row, scratch);

@@ -354,7 +354,7 @@ where
                     reach: set_reach,
                     sensing,
                     obstacle_reach,
-                    law_reach: group.obstacles.within.and(model.obstacle_reach),
+                    law_reach: group.obstacles.within.map(|_| model.obstacle_reach.unwrap_or(R::ZERO)),
                     obstacles_kept: group.obstacles.nearest.unwrap_or(usize::MAX),
                     virtual_members: group.obstacles.members,
                     conduct,

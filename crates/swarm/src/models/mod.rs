@@ -2,12 +2,13 @@
 //! made from the list.
 
 use crate::card::Card;
-use crate::engine::{Compiled, Kernel, Listed, SideBySide, Stages, Streamed, World, WorldError, WorldPlan};
+use crate::engine::{Compiled, Kernel, Listed, Sensing, SideBySide, Stages, Streamed, World, WorldError, WorldPlan};
 use crate::motion::{Abreast, Law, Model, Needs, Preset, Single, Stream, Summed, Variant};
 use crate::parameters::{Descriptor, Kind, Parameter, ParameterError, Parameters, Points, Scalar, Values};
 use crate::physics::Contact;
 use crate::selection::NamedSet;
-use space::Column;
+use crate::sensing::{Ideal, Occlusion};
+use space::{Column, Real};
 
 pub mod families;
 #[cfg(test)]
@@ -207,6 +208,14 @@ pub struct Entry {
     pub presets: fn() -> &'static [Preset],
     /// Whether obstacles hide the others from it, where a file says nothing of its sensing.
     pub blinded_by_obstacles: fn() -> bool,
+}
+
+impl Entry {
+    /// How it senses where nothing is said of that.
+    pub fn default_sensing<R: Real>(&self) -> Sensing<R> {
+        let occlusion = if (self.blinded_by_obstacles)() { Occlusion::Obstacles } else { Occlusion::None };
+        Sensing::Ideal(Ideal { occlusion, ..Ideal::default() })
+    }
 }
 
 /// The models that work in a space of `D` dimensions.

@@ -167,7 +167,7 @@ impl<R: Scalar> RobotScratch<R> {
         let offset = Vector(core::array::from_fn(|a| if a < D { offset.0[a] } else { R::ZERO }));
         self.bodies.push(Body { offset, radius, albedo: R::of(Body::<f64>::WRAPPED), member });
     }
-    /// What the last scan shows of obstacles within a reach: every place at which an outline comes nearest. So a disc, of which the
+    /// What the last scan shows of obstacles within a reach: every place at which a connected outline comes nearest. So a disc, of which the
     /// pieces of the outline are many, is one obstacle, and a room has four walls.
     pub(crate) fn obstacles<const D: usize>(&self, reach: R) -> impl Iterator<Item = NearObstacle<R, D>> + '_ {
         let walls = &self.readings.walls;
