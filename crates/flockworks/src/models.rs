@@ -167,7 +167,7 @@ pub(crate) fn json_of(value: &Value) -> Json {
     }
 }
 
-/// The unit of a parameter, and that of a file where it is another.
+/// The unit of a parameter, and that of files where it is another.
 fn unit(parameter: &Descriptor) -> String {
     if in_radians(parameter) {
         format!("{}, in files {}", parameter.unit, unit_in_files(parameter))

@@ -150,7 +150,7 @@ pub struct Crossing<R, const D: usize> {
 }
 
 /// The distance from 1 to the next greater number.
-pub(crate) fn epsilon<R: Real>() -> R {
+pub fn epsilon<R: Real>() -> R {
     R::of(if core::mem::size_of::<R>() == 4 { f64::from(f32::EPSILON) } else { f64::EPSILON })
 }
 

@@ -430,26 +430,6 @@ impl<R: Real, const D: usize> Percepts<'_, R, D> {
         let distance = self.distance(k);
         if distance > R::TINY { self.offset(k) / distance } else { Vector::ZERO }
     }
-    /// Calls `each` with the members of a named set, in canonical order, and their directions, which are computed several at a time.
-    #[inline(always)]
-    pub fn each_direction(&self, set: usize, mut each: impl FnMut(usize, Vector<R, D>)) {
-        const TOGETHER: usize = 8;
-        let whole = self.len() / TOGETHER * TOGETHER;
-        for first in (0..whole).step_by(TOGETHER) {
-            let mut directions = [[R::ZERO; TOGETHER]; D];
-            for l in 0..TOGETHER {
-                let distance = self.squared[first + l].root();
-                for a in 0..D {
-                    let part = self.offset[a][first + l] / distance;
-                    directions[a][l] = if distance > R::TINY { part } else { R::ZERO };
-                }
-            }
-            for l in (0..TOGETHER).filter(|l| self.is_in(first + l, set)) {
-                each(first + l, Vector(core::array::from_fn(|a| directions[a][l])));
-            }
-        }
-        (whole..self.len()).filter(|&k| self.is_in(k, set)).for_each(|k| each(k, self.direction(k)));
-    }
     /// Velocity of percept `k`; the agent's own where it is not known yet, zero where readings are not
     /// associated over time.
     #[inline(always)]

@@ -74,7 +74,7 @@ impl<R: Scalar, const D: usize> Model<R, D> for CuckerSmale2007<R> {
         let mut consensus = Vector::ZERO;
         let mut members = R::ONE;
         for k in seen.set(0) {
-            // the power by way of the logarithm: within 1e-14 of it, and a third of the cost
+            // the power by way of the logarithm, which costs less
             let weight = self.coupling * ((least + seen.squared[k]).most(R::TINY).ln() * -self.decay_exponent).exp();
             consensus += (seen.velocity(k) - me.velocity) * weight;
             members += R::ONE;

@@ -3,11 +3,11 @@
 use crate::motion::*;
 use crate::parameters::Scalar;
 use space::Vector;
+use space::shape::epsilon;
 
 /// The distance just past another: whoever stands exactly at a radius of these models is still seen.
 pub fn past<R: Scalar>(radius: R) -> R {
-    let unit = if size_of::<R>() < size_of::<f64>() { f64::from(f32::EPSILON) } else { f64::EPSILON };
-    radius * (R::ONE + R::of(unit))
+    radius * (R::ONE + epsilon())
 }
 
 /// The sum over walls and discs nearer than `distance` of the ways out, fading to 0 there, unless a member is leaving them (the cosine

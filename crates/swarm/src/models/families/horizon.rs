@@ -178,8 +178,8 @@ impl<R: Scalar> CrowdedHorizon<R> {
                 sum += seen.offset(k);
                 size += 1;
             }),
-            (Input::Bearing, None) => seen.each_direction(0, |_, direction| {
-                sum += direction;
+            (Input::Bearing, None) => seen.set(0).for_each(|k| {
+                sum += seen.direction(k);
                 size += 1;
             }),
             (Input::Pose, Some(threshold)) => {
