@@ -245,6 +245,18 @@ pub fn reciprocal_root<R: Real, L: Lanes<R>>(squared: L) -> L {
     if outside.any() { L::choose(outside, L::splat(R::ONE) / squared.square_root(), quick) } else { quick }
 }
 
+/// An array with each entry from its place. `core::array::from_fn` is six functions deep, and all of them are compiled anew
+/// wherever it is used.
+#[inline(always)]
+fn each<T: Copy, const W: usize>(mut array: [T; W], entry: impl Fn(usize) -> T) -> [T; W] {
+    let mut k = 0;
+    while k < W {
+        array[k] = entry(k);
+        k += 1;
+    }
+    array
+}
+
 /// `W` numbers in an array: the portable level, and the plain twin of the others.
 #[derive(Clone, Copy)]
 pub struct Wide<R, const W: usize>([R; W]);
@@ -260,15 +272,15 @@ impl<const W: usize> Mask for WideMask<W> {
     }
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        Self(core::array::from_fn(|k| self.0[k] & other.0[k]))
+        Self(each(self.0, |k| self.0[k] & other.0[k]))
     }
     #[inline(always)]
     fn or(self, other: Self) -> Self {
-        Self(core::array::from_fn(|k| self.0[k] | other.0[k]))
+        Self(each(self.0, |k| self.0[k] | other.0[k]))
     }
     #[inline(always)]
     fn not(self) -> Self {
-        Self(self.0.map(|b| !b))
+        Self(each(self.0, |k| !self.0[k]))
     }
     #[inline(always)]
     fn any(self) -> bool {
@@ -280,7 +292,7 @@ impl<const W: usize> Mask for WideMask<W> {
     }
     #[inline(always)]
     fn from_bits(bits: u32) -> Self {
-        Self(core::array::from_fn(|k| (bits >> k) & 1 == 1))
+        Self(each([false; W], |k| (bits >> k) & 1 == 1))
     }
 }
 
@@ -290,7 +302,7 @@ macro_rules! wide_operator {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Self(core::array::from_fn(|k| self.0[k] $op other.0[k]))
+                Self(each(self.0, |k| self.0[k] $op other.0[k]))
             }
         }
     };
@@ -304,7 +316,7 @@ impl<R: Real, const W: usize> Neg for Wide<R, W> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|v| -v))
+        Self(each(self.0, |k| -self.0[k]))
     }
 }
 
@@ -318,7 +330,7 @@ impl<R: Real, const W: usize> Lanes<R> for Wide<R, W> {
     #[inline(always)]
     fn load(from: &[R]) -> Self {
         let from = &from[..W];
-        Self(core::array::from_fn(|k| from[k]))
+        Self(each([R::ZERO; W], |k| from[k]))
     }
     #[inline(always)]
     fn store(self, to: &mut [R]) {
@@ -326,35 +338,35 @@ impl<R: Real, const W: usize> Lanes<R> for Wide<R, W> {
     }
     #[inline(always)]
     fn square_root(self) -> Self {
-        Self(self.0.map(Real::root))
+        Self(each(self.0, |k| self.0[k].root()))
     }
     #[inline(always)]
     fn rough_reciprocal_root(self) -> Self {
-        Self(core::array::from_fn(|k| self.0[k].rough_reciprocal_root()))
+        Self(each(self.0, |k| self.0[k].rough_reciprocal_root()))
     }
     #[inline(always)]
     fn size(self) -> Self {
-        Self(self.0.map(Real::abs))
+        Self(each(self.0, |k| self.0[k].abs()))
     }
     #[inline(always)]
     fn lesser(self, other: Self) -> Self {
-        Self(core::array::from_fn(|k| self.0[k].lesser(other.0[k])))
+        Self(each(self.0, |k| self.0[k].lesser(other.0[k])))
     }
     #[inline(always)]
     fn greater(self, other: Self) -> Self {
-        Self(core::array::from_fn(|k| self.0[k].greater(other.0[k])))
+        Self(each(self.0, |k| self.0[k].greater(other.0[k])))
     }
     #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
-        WideMask(core::array::from_fn(|k| self.0[k] < other.0[k]))
+        WideMask(each([false; W], |k| self.0[k] < other.0[k]))
     }
     #[inline(always)]
     fn less_equal(self, other: Self) -> Self::Mask {
-        WideMask(core::array::from_fn(|k| self.0[k] <= other.0[k]))
+        WideMask(each([false; W], |k| self.0[k] <= other.0[k]))
     }
     #[inline(always)]
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Self(core::array::from_fn(|k| if mask.0[k] { yes.0[k] } else { no.0[k] }))
+        Self(each(yes.0, |k| if mask.0[k] { yes.0[k] } else { no.0[k] }))
     }
     #[inline(always)]
     fn pack(self, bits: u32, to: &mut [R]) {
@@ -431,11 +443,26 @@ pub fn with_lanes<R: Real, T: Task<R>>(level: Level, task: T) -> T::Output {
     task.run::<R::Portable>()
 }
 
+/// The portable level where there are two wider ones: a number at a time. Every processor of the last ten years has one of the wider
+/// ones, and arrays of numbers are what takes compilers longest.
+#[cfg(target_arch = "x86_64")]
+mod narrow {
+    /// One number.
+    pub type F32Portable = f32;
+    /// One number.
+    pub type F64Portable = f64;
+}
+#[cfg(target_arch = "x86_64")]
+pub use narrow::{F32Portable, F64Portable};
 #[cfg(target_arch = "x86_64")]
 pub use x86::{F32Avx2, F32Avx512, F64Avx2, F64Avx512};
 #[cfg(not(target_arch = "x86_64"))]
 mod elsewhere {
     use super::Wide;
+    /// As many numbers as common vectors hold twice.
+    pub type F32Portable = Wide<f32, 8>;
+    /// As many numbers as common vectors hold twice.
+    pub type F64Portable = Wide<f64, 4>;
     /// Stands in for the vector types of another architecture.
     pub type F32Avx2 = Wide<f32, 8>;
     /// Stands in for the vector types of another architecture.
@@ -446,7 +473,7 @@ mod elsewhere {
     pub type F64Avx512 = Wide<f64, 8>;
 }
 #[cfg(not(target_arch = "x86_64"))]
-pub use elsewhere::{F32Avx2, F32Avx512, F64Avx2, F64Avx512};
+pub use elsewhere::{F32Avx2, F32Avx512, F32Portable, F64Avx2, F64Avx512, F64Portable};
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
@@ -891,6 +918,9 @@ mod tests {
                 assert_eq!(plain[k].bits(), wide[k].bits(), "{level:?} lane {k}");
             }
         }
+        // the arrays of other processors
+        let wide = Chain(&a, &b).run::<Wide<R, 8>>();
+        assert!((0..64).all(|k| plain[k].bits() == wide[k].bits()));
     }
 
     #[test]
@@ -955,6 +985,7 @@ mod tests {
             with_lanes::<f32, _>(level, Pack);
             with_lanes::<f64, _>(level, Pack);
         }
+        Pack.run::<Wide<f64, 4>>();
     }
 
     #[test]
@@ -962,5 +993,6 @@ mod tests {
         for level in [Level::Portable, Level::Avx2, Level::Avx512] {
             with_lanes(level, Bits);
         }
+        Bits.run::<Wide<f32, 8>>();
     }
 }

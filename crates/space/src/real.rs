@@ -1,6 +1,6 @@
 //! `Real`: the two precisions (f32, f64) everything is generic over.
 
-use crate::lanes::{Lanes, Wide};
+use crate::lanes::{self, Lanes};
 use core::fmt::{Debug, Display};
 use core::iter::Sum;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -230,9 +230,9 @@ macro_rules! real {
     };
 }
 
-real!(f32, "f32", crate::lanes::F32Avx2, crate::lanes::F32Avx512, Wide<f32, 8>,
+real!(f32, "f32", lanes::F32Avx2, lanes::F32Avx512, lanes::F32Portable,
     [1.570_312_5, 4.837_513e-4, 7.549_79e-8], 12_582_912.0,
     sinf cosf sincosf atan2f acosf asinf expf logf powf);
-real!(f64, "f64", crate::lanes::F64Avx2, crate::lanes::F64Avx512, Wide<f64, 4>,
+real!(f64, "f64", lanes::F64Avx2, lanes::F64Avx512, lanes::F64Portable,
     [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21], 6_755_399_441_055_744.0,
     sin cos sincos atan2 acos asin exp log pow);

@@ -834,7 +834,10 @@ pub trait Stream<R: Scalar, const D: usize>: Send + Sync + 'static {
     ) {
         for k in 0..neighbours.count.min(TOGETHER) {
             let (offset, squared, other) = (&neighbours.offset[k], neighbours.squared[k], neighbours.other(k));
-            let sets = self.classify::<L>(me, offset, squared, &other).map(|set| set.and(neighbours.near[k]));
+            let mut sets = self.classify::<L>(me, offset, squared, &other);
+            for set in &mut sets {
+                *set = set.and(neighbours.near[k]);
+            }
             self.gather::<L>(sums, me, offset, squared, &other, &sets);
         }
     }
@@ -874,7 +877,10 @@ impl<R: Scalar, const D: usize, T: Stream<R, D>> Model<R, D> for Summed<T> {
                 others: seen.others,
                 columns: seen.columns,
             };
-            let sets = core::array::from_fn(|s| bits >> s & 1 == 1);
+            let mut sets = [false; 4];
+            for (s, set) in sets.iter_mut().enumerate() {
+                *set = bits >> s & 1 == 1;
+            }
             self.0.gather::<R>(&mut sums, &lanes, &seen.offset(k).0, seen.squared[k], &other, &sets);
         }
         self.0.finish(me, &sums, draws)

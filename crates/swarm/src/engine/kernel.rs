@@ -1601,53 +1601,47 @@ pub(crate) fn minimal_lanes<R: Real, L: Lanes<R>, const D: usize>(space: &Space<
     }
 }
 
-/// A law that is given lists of percepts.
-pub(crate) struct Listed<M, R, const D: usize> {
-    pub(crate) law: M,
-    pub(crate) stages: Stages<R, D>,
-}
-
-impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
+impl<R: Scalar, const D: usize> Stages<R, D> {
     fn remembers(&self) -> bool {
-        matches!(&self.stages.sensing, Sensing::Scanner(robot) if robot.association.is_some())
+        matches!(&self.sensing, Sensing::Scanner(robot) if robot.association.is_some())
     }
 
-    /// Everything that comes before the law, and then what is to be done with it. `trace` is given by explanations alone.
+    /// Everything that comes before the law, and then what is to be done with it. `marks`: of a law that reads marks; `trace` is given
+    /// by explanations alone.
     #[inline(always)]
-    fn perceive<P: Perceiving<R, D>>(
+    fn present<P: Perceiving<R, D>>(
         &self,
         view: &View<'_, R, D>,
         row: usize,
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
-        trace: Option<&mut Trace<R, D>>,
+        (marks, trace): (bool, Option<&mut Trace<R, D>>),
         then: P,
     ) -> P::Found {
-        let stages = &self.stages;
         let mut indirect = false;
         // an explanation goes the long way, over lists, which comes to the same
-        let quick = M::MARKS && trace.is_none();
+        let quick = marks && trace.is_none();
         scratch.close_within = R::ZERO;
         (scratch.whole, scratch.rough) = (false, false);
         let heading = view.heading_of(row);
-        let marked = match &stages.rings {
-            Some(rings) if quick => stages.mark(view, row, heading, rings, scratch),
+        let marked = match &self.rings {
+            Some(rings) if quick => self.mark(view, row, heading, rings, scratch),
             _ => false,
         };
         let position = view.now.position(row);
         if marked {
-            stages.perceive_obstacles(view, row, scratch);
+            self.perceive_obstacles(view, row, scratch);
         } else {
-            indirect = stages.perceive(view, row, scratch, memory, trace.is_none());
-            if M::MARKS {
+            indirect = self.perceive(view, row, scratch, memory, trace.is_none());
+            if marks {
                 scratch.mark();
             }
         }
-        stages.within_law(&mut scratch.obstacles);
+        self.within_law(&mut scratch.obstacles);
         let obstacles = core::mem::take(&mut scratch.obstacles);
-        stages.load(view.now, row, scratch);
+        self.load(view.now, row, scratch);
         // whole blocks, where they are read by blocks
-        let count = if M::MARKS { scratch.found.next_multiple_of(BLOCK) } else { scratch.found };
+        let count = if marks { scratch.found.next_multiple_of(BLOCK) } else { scratch.found };
         let seen = Percepts {
             offset: firsts(&scratch.offset, count),
             squared: &scratch.squared[..count],
@@ -1655,7 +1649,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             sets: if marked { &[] } else { &scratch.sets },
             marks: firsts(&scratch.marks, scratch.found.div_ceil(BLOCK)),
             others: if indirect { &scratch.sensed } else { view.others },
-            columns: &stages.columns,
+            columns: &self.columns,
             // what was sensed with errors, or is of an older moment, is not the present one
             headings: if indirect || !core::ptr::eq(view.others, view.now) {
                 [&[]; D]
@@ -1680,7 +1674,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             velocity: view.now.velocity(row),
             heading,
             own: &mut scratch.own,
-            around: stages.around(view, row, Stages::item(view, position), &obstacles),
+            around: self.around(view, row, Self::item(view, position), &obstacles),
             trace,
         };
         let found = then.by(&mut me, &seen, &draws);
@@ -1688,18 +1682,18 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         found
     }
 
-    /// One decision. The same code for sweeps, turns and explanations, so that it is compiled once.
+    /// [`Self::present`] to any law: what comes before laws is compiled once and not with each of them.
     #[inline(never)]
-    fn decision(
+    fn present_to(
         &self,
         view: &View<'_, R, D>,
         row: usize,
         scratch: &mut Scratch<R, D>,
         memory: Option<&mut Memory<R>>,
-        trace: Option<&mut Trace<R, D>>,
-    ) -> Motion<R, D> {
-        let motion = self.perceive(view, row, scratch, memory, trace, Deciding(&self.law));
-        self.stages.wanted(view, row, motion)
+        how: (bool, Option<&mut Trace<R, D>>),
+        law: &mut Deciding<'_, R, D>,
+    ) {
+        self.present(view, row, scratch, memory, how, law);
     }
 
     /// The memory of an agent of this sweep.
@@ -1722,7 +1716,7 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
     /// Whether a row is to decide; the dead are written as they are.
     #[inline(always)]
     fn decides(&self, view: &View<'_, R, D>, row: usize, out: &Writer<'_, R, D>) -> bool {
-        if !self.stages.mine(view.now.id[row]) {
+        if !self.mine(view.now.id[row]) {
             return false;
         }
         let dead = view.dead(view.now, row);
@@ -1736,12 +1730,12 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
     /// Free space all round that the last agent that perceived knows of.
     #[inline(always)]
     fn room(&self, scratch: &Scratch<R, D>) -> R {
-        match (&self.stages.sensing, self.stages.obstacle_reach) {
+        match (&self.sensing, self.obstacle_reach) {
             // a limited view does not know of all that is near
             (Sensing::Ideal(Ideal { field_of_view: None, .. }), Some(reach))
-                if scratch.obstacles.is_empty() && self.stages.half == R::ZERO =>
+                if scratch.obstacles.is_empty() && self.half == R::ZERO =>
             {
-                reach.least(self.stages.law_reach.unwrap_or(reach)) - self.stages.radius
+                reach.least(self.law_reach.unwrap_or(reach)) - self.radius
             }
             _ => R::ZERO,
         }
@@ -1762,18 +1756,18 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
 
     /// Moves an agent as it wants to, as far as its body can, and writes its next state; its columns stand in the scratch.
     #[inline(always)]
-    fn perform(
+    fn perform_and_write(
         &self,
         view: &View<'_, R, D>,
         row: usize,
-        wanted: Motion<R, D>,
-        room: R,
+        (wanted, room): (Motion<R, D>, R),
         out: &Writer<'_, R, D>,
         scratch: &mut Scratch<R, D>,
+        performed: &dyn Fn(&mut [R], Vector<R, D>),
     ) {
-        let (place, velocity) = self.stages.perform(view, row, wanted, self.stages.dt, &scratch.own, &mut scratch.body);
-        if !self.stages.plain && velocity != wanted.velocity {
-            self.law.performed(&mut scratch.own, velocity);
+        let (place, velocity) = self.perform(view, row, wanted, self.dt, &scratch.own, &mut scratch.body);
+        if !self.plain && velocity != wanted.velocity {
+            performed(&mut scratch.own, velocity);
         }
         // a move that is shorter than the free space around it meets nothing
         let moved = (place - view.now.position(row)).length_squared();
@@ -1781,18 +1775,21 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
         unsafe {
             out.clear.write(row, room > R::ZERO && moved < room * room);
             out.write(row, place, velocity);
-            out.write_state(row, &self.stages.columns, &scratch.own);
-            out.write_state(row, &self.stages.body_columns, &scratch.body);
+            out.write_state(row, &self.columns, &scratch.own);
+            out.write_state(row, &self.body_columns, &scratch.body);
         }
     }
 
-    #[inline(always)]
+    /// The decisions and moves of some rows of any law.
+    #[inline(never)]
     fn sweep_rows(
         &self,
         view: &View<'_, R, D>,
         rows: Range<usize>,
         out: &Writer<'_, R, D>,
         scratch: &mut Scratch<R, D>,
+        decision: &dyn Fn(usize, &mut Scratch<R, D>, Option<&mut Memory<R>>) -> Motion<R, D>,
+        performed: &dyn Fn(&mut [R], Vector<R, D>),
     ) {
         for row in rows {
             if !self.decides(view, row, out) {
@@ -1800,12 +1797,39 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
             }
             // SAFETY: rows of one sweep are its own.
             let memory = unsafe { self.memory(view, row, out) };
-            let wanted = self.decision(view, row, scratch, memory, None);
+            let wanted = decision(row, scratch, memory);
             Self::note_close(row, out, scratch);
-            self.perform(view, row, wanted, self.room(scratch), out, scratch);
+            self.perform_and_write(view, row, (wanted, self.room(scratch)), out, scratch, performed);
         }
     }
 }
+
+/// A law that is given lists of percepts.
+pub(crate) struct Listed<M, R, const D: usize> {
+    pub(crate) law: M,
+    pub(crate) stages: Stages<R, D>,
+}
+
+impl<R: Scalar, const D: usize, M: Model<R, D>> Listed<M, R, D> {
+    /// One decision. The same code for sweeps, turns and explanations, so that it is compiled once.
+    fn decision(
+        &self,
+        view: &View<'_, R, D>,
+        row: usize,
+        scratch: &mut Scratch<R, D>,
+        memory: Option<&mut Memory<R>>,
+        trace: Option<&mut Trace<R, D>>,
+    ) -> Motion<R, D> {
+        let mut motion = Motion { velocity: Vector::ZERO, displacement: Vector::ZERO };
+        self.stages.present_to(view, row, scratch, memory, (M::MARKS, trace), &mut |me, seen, draws| {
+            motion = self.law.decide(me, seen, draws);
+        });
+        self.stages.wanted(view, row, motion)
+    }
+}
+
+/// A law, as it is told what an agent perceives.
+type Deciding<'a, R, const D: usize> = dyn FnMut(&mut Me<'_, R, D>, &Percepts<'_, R, D>, &Draws<'_>) + 'a;
 
 /// What is done with what an agent perceives. (A closure would not be compiled for the lanes.)
 trait Perceiving<R: Scalar, const D: usize> {
@@ -1813,13 +1837,11 @@ trait Perceiving<R: Scalar, const D: usize> {
     fn by(self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Self::Found;
 }
 
-/// The law decides.
-struct Deciding<'a, M>(&'a M);
-impl<R: Scalar, const D: usize, M: Model<R, D>> Perceiving<R, D> for Deciding<'_, M> {
-    type Found = Motion<R, D>;
+impl<R: Scalar, const D: usize> Perceiving<R, D> for &mut Deciding<'_, R, D> {
+    type Found = ();
     #[inline(always)]
-    fn by(self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) -> Motion<R, D> {
-        self.0.decide(me, seen, draws)
+    fn by(self, me: &mut Me<'_, R, D>, seen: &Percepts<'_, R, D>, draws: &Draws<'_>) {
+        self(me, seen, draws);
     }
 }
 
@@ -1844,7 +1866,9 @@ impl<R: Scalar, const D: usize, M: Model<R, D>> Kernel<R, D> for Listed<M, R, D>
         self.law.complete(start);
     }
     fn sweep(&self, view: &View<'_, R, D>, rows: Range<usize>, out: &Writer<'_, R, D>, scratch: &mut Scratch<R, D>) {
-        self.sweep_rows(view, rows, out, scratch);
+        let decision = |row, scratch: &mut _, memory: Option<&mut _>| self.decision(view, row, scratch, memory, None);
+        let performed = |own: &mut [R], velocity| self.law.performed(own, velocity);
+        self.stages.sweep_rows(view, rows, out, scratch, &decision, &performed);
     }
     fn one(
         &self,
@@ -1905,13 +1929,14 @@ impl<R: Scalar, const D: usize, M: Abreast<R, D>> Task<R> for SweepSideBySide<'_
             && view.bodies.len() == 1;
         let (mut places, mut rooms, mut count) = ([0; WIDEST], [R::ZERO; WIDEST], 0);
         for row in rows.clone() {
-            if listed.decides(view, row, out) {
+            if stages.decides(view, row, out) {
                 // SAFETY: rows of one sweep are its own.
-                let memory = unsafe { listed.memory(view, row, out) };
-                wishes[count] = listed.perceive(view, row, scratch, memory, None, Wishing(&listed.law.0));
-                Listed::<Single<M>, R, D>::note_close(row, out, scratch);
+                let memory = unsafe { stages.memory(view, row, out) };
+                let how = (<Single<M> as Model<R, D>>::MARKS, None);
+                wishes[count] = stages.present(view, row, scratch, memory, how, Wishing(&listed.law.0));
+                Stages::note_close(row, out, scratch);
                 agents.put(count, view.now.velocity(row), &scratch.own);
-                (places[count], rooms[count]) = (row, listed.room(scratch));
+                (places[count], rooms[count]) = (row, stages.room(scratch));
                 count += 1;
             }
             if count < WIDEST && row + 1 < rows.end {
@@ -1923,9 +1948,10 @@ impl<R: Scalar, const D: usize, M: Abreast<R, D>> Task<R> for SweepSideBySide<'_
             if !(together && kernel.move_together::<L>(view, places[0], count, &agents, &rooms, out)) {
                 for k in 0..count {
                     let row = places[k];
-                    listed.stages.load(view.now, row, scratch);
-                    let motion = agents.take(k, &mut scratch.own);
-                    listed.perform(view, row, listed.stages.wanted(view, row, motion), rooms[k], out, scratch);
+                    stages.load(view.now, row, scratch);
+                    let wanted = stages.wanted(view, row, agents.take(k, &mut scratch.own));
+                    let performed = |own: &mut [R], velocity| listed.law.performed(own, velocity);
+                    stages.perform_and_write(view, row, (wanted, rooms[k]), out, scratch, &performed);
                 }
             }
             count = 0;
@@ -2143,10 +2169,13 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
                 row += count;
                 continue;
             }
-            let place: [L; D] = core::array::from_fn(|a| L::load(&view.now.position[a][row..]));
-            let velocity: [L; D] = core::array::from_fn(|a| L::load(&view.now.velocity[a][row..]));
-            let heading =
-                if M::HEADINGS { core::array::from_fn(|a| L::load(&view.heading[a][row..])) } else { velocity };
+            let zero = L::splat(R::ZERO);
+            let (mut place, mut velocity, mut heading) = ([zero; D], [zero; D], [zero; D]);
+            for a in 0..D {
+                place[a] = L::load(&view.now.position[a][row..]);
+                velocity[a] = L::load(&view.now.velocity[a][row..]);
+                heading[a] = if M::HEADINGS { L::load(&view.heading[a][row..]) } else { velocity[a] };
+            }
             let mut own = [L::splat(R::ZERO); MOST_OWN];
             for (own, &column) in own.iter_mut().zip(&self.listed.stages.columns) {
                 *own = L::load(&view.now.state[column][row..]);
@@ -2223,8 +2252,10 @@ impl<R: Scalar, const D: usize, M: Stream<R, D>> Streamed<M, R, D> {
             return;
         }
         for k in 0..count {
-            let pick = |from: &[[R; WIDEST]; D]| Vector(core::array::from_fn(|a| from[a][k]));
-            let wanted = Motion { velocity: pick(&velocity), displacement: pick(&displacement) };
+            let mut wanted = Motion { velocity: Vector::ZERO, displacement: Vector::ZERO };
+            for a in 0..D {
+                (wanted.velocity[a], wanted.displacement[a]) = (velocity[a][k], displacement[a][k]);
+            }
             let (place, velocity) = stages.perform(view, row + k, wanted, stages.dt, &[], &mut []);
             // SAFETY: as above.
             unsafe { out.write(row + k, place, velocity) };

@@ -71,7 +71,7 @@ fn prepared<R: Scalar, const D: usize, M: Law<R>>(
     stream_reach: Option<R>,
     build: Build<R, D>,
 ) -> Result<Prepared<R, D>, ParameterError> {
-    points_have_all_coordinates::<R, D, M>(model)?;
+    points_have_all_coordinates(&model.values(), &M::descriptors(), D)?;
     model.check(members).map_err(ParameterError::Together)?;
     Ok(Prepared {
         sets,
@@ -84,7 +84,7 @@ fn prepared<R: Scalar, const D: usize, M: Law<R>>(
         bodies_meet: model.bodies_meet(),
         velocity_is_step: model.velocity_is_step(),
         guarded: model.guarded(),
-        initial_speeds: (0..members).map(|member| model.initial_speed_of(member)).collect(),
+        initial_speeds: of_each(members, &|member| model.initial_speed_of(member)),
         stream_reach,
         build,
     })
@@ -106,14 +106,18 @@ fn streamed<R: Scalar, const D: usize, T: Stream<R, D>>(law: T) -> (Vec<NamedSet
     (sets, Some(reach), build)
 }
 
+/// A number for each member; compiled once and not with each law.
+fn of_each<R: Scalar>(members: usize, number: &dyn Fn(usize) -> R) -> Vec<R> {
+    (0..members).map(number).collect()
+}
+
 /// Refuses a point that lacks a coordinate: to the law it would be none at all.
-fn points_have_all_coordinates<R: Scalar, const D: usize, M: Law<R>>(law: &M) -> Result<(), ParameterError> {
-    let values = law.values();
-    for descriptor in M::descriptors().iter().filter(|descriptor| descriptor.takes == Kind::Points) {
-        let points = values.get(descriptor.name).and_then(Points::<R>::read).unwrap_or(Points(Vec::new()));
-        if let Some(short) = points.0.iter().find(|point| point.len() != D) {
+fn points_have_all_coordinates(values: &Values, descriptors: &[Descriptor], axes: usize) -> Result<(), ParameterError> {
+    for descriptor in descriptors.iter().filter(|descriptor| descriptor.takes == Kind::Points) {
+        let points = values.get(descriptor.name).and_then(Points::<f64>::read).unwrap_or(Points(Vec::new()));
+        if let Some(short) = points.0.iter().find(|point| point.len() != axes) {
             return Err(ParameterError::Together(format!(
-                "`{}` needs {D} coordinates for each point, found {}",
+                "`{}` needs {axes} coordinates for each point, found {}",
                 descriptor.name,
                 short.len()
             )));
