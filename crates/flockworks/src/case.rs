@@ -395,7 +395,7 @@ impl Case {
                 }
                 _ => {
                     let random = self.entry.card.random;
-                    if !random.iter().any(|quantity| quantity.name == key) {
+                    let Some(quantity) = random.iter().find(|quantity| quantity.name == key) else {
                         let mut known: Vec<&str> = random.iter().map(|quantity| quantity.name).collect();
                         known.extend(AUX_KEYS);
                         return at.fault(format_args!(
@@ -403,11 +403,24 @@ impl Case {
                             self.entry.card.id,
                             hint(key, &known)
                         ));
-                    }
-                    let read = |entry: &At<'_>| match entry.value {
-                        Json::Array(list) if list.is_empty() => entry.fault("expected at least one number"),
-                        Json::Array(_) => entry.numbers(None),
-                        _ => Ok(vec![entry.number()?]),
+                    };
+                    let components = quantity.components(self.dimension);
+                    let read = |entry: &At<'_>| {
+                        let numbers = match entry.value {
+                            Json::Array(_) => entry.numbers(None)?,
+                            _ => vec![entry.number()?],
+                        };
+                        if components.contains(&numbers.len()) {
+                            return Ok(numbers);
+                        }
+                        entry.fault(format_args!(
+                            "`{key}` has {} for a member, found {}",
+                            match components.end() {
+                                1 => "one number".to_owned(),
+                                end => format!("{end} components"),
+                            },
+                            numbers.len()
+                        ))
                     };
                     let values = of_length(&value, agents)?.iter().map(read).collect::<Result<_, _>>()?;
                     self.injected.insert(key.to_owned(), values);
@@ -545,7 +558,7 @@ impl Case {
                     continue;
                 }
             }
-            let other_part = (1..D).any(|axis| {
+            let other_part = (1..3).any(|axis| {
                 let suffix = ["_x", "_y", "_z"][axis];
                 column.name.strip_suffix(suffix).is_some_and(|whole| state.contains_key(whole))
             });

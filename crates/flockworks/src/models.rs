@@ -3,7 +3,7 @@
 use crate::case::model;
 use crate::fault::{Fault, wrong};
 use crate::table::Table;
-use crate::taxonomy::{Classification, Condition, conditions, meets, rows_of};
+use crate::taxonomy::{Classification, Condition, conditions, leave_some, meets, rows_of};
 use clap::{Args, ValueEnum};
 use lab::scenario::agents::{default_in_files, in_radians, unit_in_files};
 use serde_json::{Value as Json, json};
@@ -52,7 +52,7 @@ pub struct ModelsOptions {
 /// Prints the table of models, or one model's card.
 ///
 /// # Errors
-/// An unknown id, a condition that cannot be, or a reader that went away.
+/// An unknown id, a condition that cannot be, conditions that no model meets, or a reader that went away.
 pub fn models(options: &ModelsOptions, out: &mut dyn Write) -> Result<(), Fault> {
     let text = match &options.id {
         Some(id) => {
@@ -67,8 +67,9 @@ pub fn models(options: &ModelsOptions, out: &mut dyn Write) -> Result<(), Fault>
         }
         None => {
             let conditions = options.condition.as_deref().map_or_else(|| Ok(Vec::new()), conditions)?;
+            leave_some(&conditions)?;
             match options.table {
-                Some(which) => classified(which, &conditions, options.format),
+                Some(which) => classified(which, &conditions, options.format)?,
                 None => all(&conditions, options.format),
             }
         }
@@ -92,21 +93,27 @@ fn all(conditions: &[Condition], format: Format) -> String {
 }
 
 /// A table of publications in a form.
-fn classified(which: Classification, conditions: &[Condition], format: Format) -> String {
+fn classified(which: Classification, conditions: &[Condition], format: Format) -> Result<String, Fault> {
     let (headings, rows) = rows_of(which, conditions);
+    if rows.is_empty() {
+        return wrong(
+            "--where: models meet these conditions, but no row of this table does: a row has the classes of the first model of \
+             its publication; leave `--table` out to see them",
+        );
+    }
     if format == Format::Json {
         let object = |row: Vec<String>| -> Json {
             headings.iter().map(|&heading| heading.to_owned()).zip(row.into_iter().map(Json::from)).collect()
         };
-        return pretty(&rows.into_iter().map(object).collect());
+        return Ok(pretty(&rows.into_iter().map(object).collect()));
     }
     let mut table = Table::new(&headings);
     rows.into_iter().for_each(|row| table.row(row));
-    match format {
+    Ok(match format {
         Format::Md => table.markdown(),
         Format::Csv => table.csv(),
         Format::Text | Format::Json => table.text(),
-    }
+    })
 }
 
 pub(crate) fn pretty(value: &Json) -> String {

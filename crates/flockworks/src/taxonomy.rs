@@ -80,6 +80,12 @@ pub struct Condition {
     value: String,
 }
 
+impl core::fmt::Display for Condition {
+    fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(out, "{}={}", self.column, self.value)
+    }
+}
+
 /// Reads conditions such as `velocity=no collision=all`. A word without `=` belongs to the value before it, as in
 /// `environment=bounded free`.
 ///
@@ -131,6 +137,36 @@ fn condition(key: &str, value: String) -> Result<Condition, Fault> {
 /// Whether a model meets all conditions.
 pub fn meets(taxonomy: &Taxonomy, conditions: &[Condition]) -> bool {
     conditions.iter().all(|condition| class(taxonomy, condition.column) == condition.value)
+}
+
+/// Refuses conditions that no model meets together: names the first that leaves none, and what those before it leave.
+///
+/// # Errors
+/// No model meets them all.
+pub fn leave_some(conditions: &[Condition]) -> Result<(), Fault> {
+    let mut left: Vec<&Taxonomy> = LIST.iter().map(|entry| &entry.card.taxonomy).collect();
+    for (k, last) in conditions.iter().enumerate() {
+        let before = &conditions[..k];
+        if let Some(other) = before.iter().find(|other| other.column == last.column && other.value != last.value) {
+            return wrong(format!("--where: no model meets both `{other}` and `{last}`: each has one value"));
+        }
+        let (met, others): (Vec<&Taxonomy>, Vec<&Taxonomy>) =
+            left.into_iter().partition(|taxonomy| class(taxonomy, last.column) == last.value);
+        if met.is_empty() {
+            let before: Vec<String> = before.iter().map(ToString::to_string).collect();
+            let mut values: Vec<&str> = others.iter().map(|taxonomy| class(taxonomy, last.column)).collect();
+            values.sort_unstable();
+            values.dedup();
+            return wrong(format!(
+                "--where: no model meets all conditions: none of the {} with `{}` has `{last}`, only {}",
+                others.len(),
+                before.join(" "),
+                values.join(", ")
+            ));
+        }
+        left = met;
+    }
+    Ok(())
 }
 
 /// Headings and rows of a table: the publications, then the models that are in none of them.
@@ -223,6 +259,12 @@ mod tests {
         assert!(told("velocty=no").contains("did you mean `velocity`?"));
         assert!(told("velocity=nope").contains("values are no, yes"));
         assert!(told("info=global").contains("info_position or info_velocity"));
+        let left = |text: &str| leave_some(&conditions(text).unwrap());
+        assert!(left("velocity=no collision=all").is_ok() && left("velocity=no velocity=no").is_ok());
+        let none = |text: &str| left(text).unwrap_err().to_string();
+        assert!(none("velocity=no time=discrete velocity=yes").contains("both `velocity=no` and `velocity=yes`"));
+        let nobody = none("velocity=no identification=yes collision=environment time=discrete");
+        assert!(nobody.contains("with `velocity=no identification=yes` has `collision_avoidance=environment`, only "));
         assert!(told("no").contains("expected `key=value`") && told(" ").contains("at least one"));
     }
 }

@@ -315,6 +315,10 @@ fn models_are_classified_and_chosen() {
     assert!(flockworks(&["models", "--where", "collision=environment"]).out.contains("snn_plus"));
     refused(&["models", "--where", "colision_avoidance=all"], &["did you mean `collision_avoidance`?"]);
     refused(&["models", "--where", "time=discreet"], &["did you mean `discrete`?"]);
+    for table in [&[][..], &["--table", "design"], &["--format", "json"]] {
+        let none = ["models", "--where", "velocity=no velocity=yes"];
+        refused(&[&none, table].concat(), &["no model meets both `velocity=no` and `velocity=yes`"]);
+    }
     assert_eq!(flockworks(&["models", "vicsek_1995", "--where", "time=discrete"]).code, Some(2));
     refused(&["models", "vicsek_1995", "--format", "csv"], &["no csv form"]);
 }

@@ -217,9 +217,8 @@ impl<M: Metric, const D: usize> Measure<D> for M {
 }
 
 /// The refusal of a parameter that a metric does not have.
-pub(crate) fn unknown_parameter(metric: &'static str, name: &str, known: &[Parameter]) -> MeasureError {
-    let nearest = nearest(name, known.iter().map(|parameter| parameter.name));
-    MeasureError::UnknownParameter { metric, name: name.to_owned(), nearest }
+pub(crate) fn unknown_parameter(metric: &'static str, name: &str, known: &'static [Parameter]) -> MeasureError {
+    MeasureError::UnknownParameter { metric, name: name.to_owned(), known }
 }
 
 /// Refuses a value that a parameter may not have.
@@ -253,8 +252,8 @@ pub enum MeasureError {
         metric: &'static str,
         /// The name given.
         name: String,
-        /// The name that may have been meant.
-        nearest: Option<&'static str>,
+        /// Those it has.
+        known: &'static [Parameter],
     },
     /// A parameter may not have this value.
     Range {
@@ -287,27 +286,30 @@ pub enum MeasureError {
 
 impl core::fmt::Display for MeasureError {
     fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let nearest = match self {
+        match self {
             Self::UnknownMetric { id, nearest } => {
                 write!(out, "unknown metric `{id}`")?;
-                nearest
+                nearest.map_or(Ok(()), |nearest| write!(out, "; did you mean `{nearest}`?"))
             }
-            Self::UnknownParameter { metric, name, nearest } => {
-                write!(out, "unknown parameter `{name}` of metric `{metric}`")?;
-                if nearest.is_none() {
-                    write!(out, "; it has none")?;
+            Self::UnknownParameter { metric, name, known: [] } => {
+                write!(out, "metric `{metric}` takes no parameters, so none that is called `{name}`")
+            }
+            Self::UnknownParameter { metric, name, known } => {
+                write!(out, "metric `{metric}` has no parameter `{name}`; ")?;
+                let names: Vec<&str> = known.iter().map(|parameter| parameter.name).collect();
+                match nearest(name, names.iter().copied()) {
+                    Some(nearest) => write!(out, "did you mean `{nearest}`?"),
+                    None => write!(out, "it takes {}", names.join(", ")),
                 }
-                nearest
             }
             Self::Range { metric, name, found, bounds } => {
-                return write!(out, "`{name}` of metric `{metric}` must be {bounds}, found {found}");
+                write!(out, "`{name}` of metric `{metric}` must be {bounds}, found {found}")
             }
             Self::Missing { metric, name, about } => {
-                return write!(out, "metric `{metric}` needs a value for `{name}`: {about}");
+                write!(out, "metric `{metric}` needs a value for `{name}`: {about}")
             }
-            Self::Unfit { metric, needs } => return write!(out, "metric `{metric}` needs {needs}"),
-        };
-        nearest.map_or(Ok(()), |nearest| write!(out, "; did you mean `{nearest}`?"))
+            Self::Unfit { metric, needs } => write!(out, "metric `{metric}` needs {needs}"),
+        }
     }
 }
 impl core::error::Error for MeasureError {}

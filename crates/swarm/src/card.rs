@@ -1,5 +1,7 @@
 //! What a model says about itself beyond its parameters.
 
+use core::ops::RangeInclusive;
+
 /// How a group is composed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Composition {
@@ -86,6 +88,18 @@ pub struct RandomQuantity {
     pub name: &'static str,
     /// Its distribution and the draws it consumes.
     pub about: &'static str,
+}
+
+impl RandomQuantity {
+    /// How many numbers it has for a member in so many dimensions.
+    pub fn components(&self, dimension: usize) -> RangeInclusive<usize> {
+        match self.name {
+            "unit" | "noise_vec" | "jitter" => dimension..=dimension,
+            // an angle in laws, a vector in compositions
+            "wander" => 1..=dimension,
+            _ => 1..=1,
+        }
+    }
 }
 
 /// A model's description of itself.

@@ -54,8 +54,9 @@ fn pages(workspace: &Workspace) -> Result<Vec<(String, String)>, Failure> {
     let mut pages = Vec::new();
     for id in &ids {
         let text = flockworks(workspace, &["models", id, "--format", "md"])?;
-        pages.push((format!("{FOLDER}/{id}.md"), format!("{NOTE}{}", with_picture(id, &text))));
-        pages.push((format!("{PICTURES}/{id}.svg"), flockworks(workspace, &["models", id, "--picture"])?));
+        let picture = flockworks(workspace, &["models", id, "--picture"])?;
+        pages.push((format!("{FOLDER}/{id}.md"), format!("{NOTE}{}", with_picture(id, &text, &picture))));
+        pages.push((format!("{PICTURES}/{id}.svg"), picture));
     }
     let table = flockworks(workspace, &["models", "--format", "md"])?;
     let index = index(&ids, &table);
@@ -71,10 +72,10 @@ fn pages(workspace: &Workspace) -> Result<Vec<(String, String)>, Failure> {
     Ok(pages)
 }
 
-/// A model's page with the drawing of a run before its first section.
-fn with_picture(id: &str, page: &str) -> String {
-    let about = "Thirty members with default parameters, from random places in a box (on a line: time goes down); lines are their ways, arrows \
-                 where they are at the end.";
+/// A model's page with the drawing of a run, and what it says of itself, before its first section.
+fn with_picture(id: &str, page: &str, picture: &str) -> String {
+    let about =
+        picture.split_once("<desc>").and_then(|(_, rest)| rest.split_once("</desc>")).map_or("", |(about, _)| about);
     let section = format!("## A typical run\n\n![A typical run of {id}](pictures/{id}.svg)\n\n{about}\n\n## ");
     page.replacen("## ", &section, 1)
 }
@@ -128,8 +129,9 @@ mod tests {
 
     #[test]
     fn the_picture_stands_before_the_first_section() {
-        let page = with_picture("some", "# Some\n\nAbout.\n\n## Dimensions\n\n2\n\n## Reference\n");
-        let places = ["About.", "## A typical run", "pictures/some.svg", "## Dimensions", "## Reference"]
+        let picture = "<svg><title>Some</title><desc>They mill.</desc></svg>";
+        let page = with_picture("some", "# Some\n\nAbout.\n\n## Dimensions\n\n2\n\n## Reference\n", picture);
+        let places = ["About.", "## A typical run", "pictures/some.svg", "They mill.", "## Dimensions", "## Reference"]
             .map(|part| page.find(part));
         assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{page}");
         assert_eq!(page.matches("## Dimensions").count(), 1);

@@ -106,6 +106,12 @@ def of_moment(name, positions, velocities, period):
     for far in (0.5, 2.0):
         yield of("stragglers", (nearest[:, 0] > far).mean(), distance=far)
         yield of("overlapping_pairs", float((pairs < 2 * far).sum()), body_radius=far)
+    for reach, wanted in ((2.0, 1.5), (4.0, 3.0)):
+        edges = pairs[pairs < reach]
+        energy = 2 * ((edges - wanted) ** 2).sum() / (2 * len(edges) + 1)
+        yield of("deviation_energy", energy, interaction_radius=reach, spacing=wanted)
+        if len(edges) > 0:
+            yield of("mean_edge_length", edges.mean(), interaction_radius=reach)
     for reach, body in ((3.0, 0.2), (6.0, 0.5)):
         shares = []
         for own in range(members):

@@ -31,6 +31,8 @@ metrics! {
     k_nearest_distance::KNearestDistance;
     mean_pair_distance::MeanPairDistance;
     max_pair_distance::MaxPairDistance;
+    mean_edge_length::MeanEdgeLength;
+    deviation_energy::DeviationEnergy;
     hull_area::HullArea;
     hull_perimeter::HullPerimeter;
     hull_vertices::HullVertices;

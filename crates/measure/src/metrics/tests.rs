@@ -326,7 +326,7 @@ fn parameters_are_set_by_name_and_wrong_requests_explained() {
     let Ok(mut count) = find::<1>("group_count") else { return };
     assert_eq!(
         fails(count.set("linking", 1.0)),
-        Err("unknown parameter `linking` of metric `group_count`; did you mean `linking_distance`?".into())
+        Err("metric `group_count` has no parameter `linking`; did you mean `linking_distance`?".into())
     );
     let places = [[0.0], [2.0], [4.5]].map(|place| (place, [0.0]));
     let group = sample(Space::open(), &places);

@@ -30,7 +30,7 @@ impl TrackMetric for RelativePositions {
                     heading, in units of the root of its expanse): how often a member was found there, over all frames, and that \
                     over all finds of the group",
         variant: "clusters by single linkage over everyone; left is horizontal in space; cells where none was found have no row",
-        source: "mean relative positions within a school, as asked for by the study of behaviour selection (source 000)",
+        source: "mean relative positions within a school, as asked for by a thesis on behaviour selection in collective motion in three dimensions, whose text at hand names no author",
         counted: Counted::Velocities,
         dimensions: &[1, 2, 3],
         parameters: Self::PARAMETERS,

@@ -150,6 +150,10 @@ impl<R: Scalar, const D: usize> Group<R, D> {
     pub fn radius(&self) -> R {
         self.radius
     }
+    /// Whether its bodies meet those of other members.
+    pub fn meets(&self) -> bool {
+        self.meets
+    }
     /// From the centre of a body to the end of its axis; 0 where bodies are round.
     pub fn half_axis(&self) -> R {
         self.half
@@ -1097,7 +1101,9 @@ fn chosen_sets<R: Scalar, const D: usize>(
     for (name, perception) in &group.sets {
         let Some(set) = sets.iter_mut().find(|set| set.name == name) else {
             let names: Vec<&str> = own.iter().map(|set| set.name).collect();
-            let there = if names.is_empty() { "it has none".into() } else { format!("it has {}", names.join(", ")) };
+            // the sets of a composition are those that its terms name
+            let owner = if own.iter().any(NamedSet::is_unsaid) { "its terms name" } else { "it has" };
+            let there = if names.is_empty() { "it has none".into() } else { format!("{owner} {}", names.join(", ")) };
             let meant = nearest(name, names.into_iter()).map_or_else(String::new, |n| format!("; did you mean `{n}`?"));
             return Err(in_group(group, format!("`{}` has no named set `{name}`; {there}{meant}", group.model)));
         };
@@ -1105,9 +1111,17 @@ fn chosen_sets<R: Scalar, const D: usize>(
     }
     for set in &sets {
         if set.is_unsaid() && !group.sets.iter().any(|(name, _)| name == set.name) {
-            let given: Vec<&str> = group.sets.iter().map(|(name, _)| name.as_str()).collect();
-            let there = if given.is_empty() { "it has no sets".into() } else { format!("it has {}", given.join(", ")) };
-            let problem = format!("set `{}` is named by a term, and must be said in the selection; {there}", set.name);
+            let said = group.sets.iter().map(|(name, _)| name.as_str());
+            // of a composition, this set alone is said by the model itself
+            let known: Vec<&str> = said.chain([crate::terms::NEIGHBOURS]).collect();
+            let problem = format!(
+                "set `{}` is named by a term, but the selection does not say who is in it; {}",
+                set.name,
+                match nearest(set.name, known.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("say it there, or let the term name one of {}", known.join(", ")),
+                }
+            );
             return Err(in_group(group, problem));
         }
         set.perception.check().map_err(|problem| in_group(group, format!("set `{}`: {problem}", set.name)))?;

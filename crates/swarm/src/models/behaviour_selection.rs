@@ -72,6 +72,15 @@ choice! {
     }
 }
 choice! {
+    /// From which range the direction of a search is drawn.
+    pub enum Search {
+        /// The turn is uniform within the turning limits of a step.
+        Limits = "limits",
+        /// The direction is uniform, in azimuth and in elevation, within the field of view; the turn towards it is then limited.
+        View = "view",
+    }
+}
+choice! {
     /// Along which heading an agent moves.
     pub enum Update {
         /// The one chosen in this step.
@@ -130,6 +139,10 @@ parameters! {
         avoid_blind: bool = true, "-", "-", Any, Source;
         /// Whether the blind region hides obstacles and walls.
         obstacle_blind alias "obs_blind": bool = false, "-", "-", Any, Ours;
+        /// Whether walls (whatever is flat) are avoided as obstacles are.
+        avoid_walls: bool = true, "-", "-", Any, Ours;
+        /// From which range the direction of a search is drawn.
+        search: Search = "limits", "-", "-", Any, Source;
         /// How the variant `control` averages.
         control_mode: Average = "unit", "-", "-", Any, Ours;
         /// Along which heading a step goes.
@@ -196,7 +209,8 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
         title: "Selection of one behaviour at a time",
         about: "Agents avoid whoever and whatever is near, else align, else approach, and draw by the number of their neighbours \
                 where they could do both.",
-        reference: "A 3-D study of behaviour selection in collective motion (source 000): Algorithm 1 and equations 1-7",
+        reference: "A study of behaviour selection in collective motion in three dimensions, whose text at hand names no author: Algorithm 1 \
+                    and equations 1-7",
         equations: "d = distance between surfaces;  h = (cos phi cos theta, cos phi sin theta, sin phi)\n\
                     anybody or anything in z_avoid: avoid, w = -sum e_ij + sum of unit vectors away from obstacles and walls\n\
                     only z_align filled: align, w = sum h_j;  only z_attract: attract, w = sum e_ij (N nearest of each)\n\
@@ -215,7 +229,7 @@ impl<R: Scalar> Law<R> for BehaviourSelection<R> {
             obstacles: "obstacles and walls nearer than r_avoid, sensed all round",
         },
         departures: "obstacles and walls are sensed all round; walls are avoided like obstacles; moves go along the new heading; \
-                     control averages unit vectors. Each has a parameter for the literal reading. N = 0 stands for all others",
+                     control averages unit vectors; a search turns within the limits. Each has a parameter for the literal reading. N = 0 stands for all others",
         edge: "nobody sensed: search; a resultant below 1e-9 keeps the heading; an upright one keeps theta; an exact half turn \
                goes to the left; coincident members have no direction but count",
         random: &[
@@ -1078,6 +1092,9 @@ impl<R: Scalar> BehaviourSelection<R> {
         let counts = [sight.count(AVOIDANCE, blocks), sight.count(ALIGNMENT, blocks), sight.count(ATTRACTION, blocks)];
         let (mut away, mut obstacles) = (Vector::<R, 3>::ZERO, 0u32);
         for obstacle in me.around.obstacles {
+            if !self.avoid_walls && !obstacle.radius.finite() {
+                continue;
+            }
             if !self.obstacle_blind || self.sees(me.heading(), (theta, phi), -obstacle.away) {
                 away += obstacle.away;
                 obstacles += 1;
@@ -1123,8 +1140,16 @@ impl<R: Scalar> BehaviourSelection<R> {
         let mut wish = Wish { direction: wanted, ..Wish::default() };
         if let Behaviour::Search = behaviour {
             let limits = self.limits();
-            wish.turn[0] = limits[0] * draws.number("search_theta", 0.0, |s| 2.0 * s.uniform(1) - 1.0);
-            wish.turn[1] = limits[1] * draws.number("search_phi", 0.0, |s| 2.0 * s.uniform(2) - 1.0);
+            let range = match (self.search, self.view) {
+                (Search::Limits, _) => limits,
+                (Search::View, View::Cone) => [self.field_of_view.radians() * R::HALF; 2],
+                (Search::View, View::Axes) => self.half_angles().into(),
+            };
+            wish.turn[0] = range[0] * draws.number("search_theta", 0.0, |s| 2.0 * s.uniform(1) - 1.0);
+            wish.turn[1] = range[1] * draws.number("search_phi", 0.0, |s| 2.0 * s.uniform(2) - 1.0);
+            for (turn, limit) in wish.turn.iter_mut().zip(limits) {
+                *turn = turn.clamped(-limit, limit);
+            }
         }
         if me.trace.is_some() {
             self.tell(me, seen, sight, counts, from_obstacles, behaviour, drawn);
@@ -1370,6 +1395,22 @@ mod tests {
         close(w.velocity(0), heading(18.0, 0.0));
         let w = tank().obstacle(ball()).step(&[([47.5, 50.0, 50.0], AHEAD)]);
         assert_eq!((w.state(0, "o_avoid"), w.state(0, "collided")), (Some(0.0), Some(0.0)));
+    }
+
+    #[test]
+    fn a_search_and_walls_have_their_other_readings() {
+        // half of the greatest draw: within the limits of a step, or of half the view, of which more than the limits is left out
+        for (search, draw, turn) in
+            [("limits", 0.5, 9.0), ("view", 0.5, 18.0), ("view", 0.1, 13.5), ("view", -0.5, -18.0)]
+        {
+            let w = oracle().set("search", search).inject("search_theta", &[draw]).step(&[([0.0; 3], AHEAD)]);
+            close(w.velocity(0), heading(turn, 0.0));
+        }
+        for (avoided, theta) in [(true, 18.0f64), (false, 0.0)] {
+            let walled = oracle().space(Space::walled([100.0; 3])).set("avoid_walls", avoided);
+            let w = walled.step(&[([50.0, 3.0, 50.0], AHEAD)]);
+            close(w.velocity(0), heading(theta, 0.0));
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Five forces: cohesion, alignment and separation in the own flock, food, and avoidance of other flocks.
 //!
-//! In the style of K. Kawabayashi, Y. Chen (2008), as in the text on genetic flocks among the sources; the world in which flocks
+//! In the style of H. Kawabayashi, Y. Chen (2008), as in the text on genetic flocks among the sources; the world in which flocks
 //! compete for food has the model `competing_flocks`.
 
 use crate::card::*;
@@ -43,7 +43,9 @@ impl<R: Scalar> Law<R> for BoidsFiveForce<R> {
         id: "boids_five_force",
         title: "Five-force boids",
         about: "Boids hold together with their own flock, steer to food and away from other flocks.",
-        reference: "After K. Kawabayashi, Y. Chen (2008), five-force boids, as described in a text on genetic flocks (source 002)",
+        reference: "H. Kawabayashi, Y. Chen (2008), Interactive system of artificial fish school based on the extended boid model, as \
+                    described by M. J. Hunter (2019), Investigating the Impact of a Genetic Algorithm on Inter-Flock Dynamics in a \
+                    Competitive Environment, BSc dissertation, Abertay University",
         equations: "c = mean d_ij (own flock),  R = |c|;  k = nearest own;  f to the nearest food;  o = mean d_ij (others)\n\
                     acc = unit(c) R^2/(k_coh FlockSize) + unit(mean v_j)/(k_ali R) - e_ik k_sep (|I|/rho_ik)^2\n\
                     + unit(f) (k_food2 |f|^2 + k_food_inv/|f|^2) - unit(o) k_avoid/|o|\n\

@@ -50,7 +50,7 @@ impl<R: Scalar> Law<R> for BoidsRuleVectors<R> {
                 middle.",
         reference: "Description of a flocking applet, after C. W. Reynolds (1987). Flocks, herds, and schools: a distributed \
                     behavioral model. Computer Graphics 21, 25-34. doi:10.1145/37402.37406",
-        equations: "avoid = (1/|I|) sum (R/rho_ij)^2 (-e_ij)  (or divided by the sum of the weights)\n\
+        equations: "avoid = (1/|I|) sum (R/max(rho_ij, R/1000))^2 (-e_ij)  (or divided by the sum of the weights)\n\
                     match = mean h_j;  centre = mean d_ij\n\
                     v_i' = clip(v_i + Dt (w_av avoid + w_vm match + w_fc centre), v_max);  x_i' = x_i + Dt v_i'",
         stages: Stages {
@@ -62,9 +62,10 @@ impl<R: Scalar> Law<R> for BoidsRuleVectors<R> {
             obstacles: "obstacles and walls within radius add to avoid, and to what it is divided by, like a neighbour at \
                         their nearest point",
         },
-        departures: "the weight that the text calls exponential is a power law; distances in it are floored at R/1000",
-        edge: "coincident: no avoidance and no weight, but counted; nobody and nothing within radius: straight on; inside an \
-               obstacle: out of it with the greatest weight",
+        departures: "the weight that the text calls exponential is a power law; below R/1000 it is a million, where (R/rho)^2 would \
+                     grow without bound, so that sums stay finite in both precisions",
+        edge: "coincident (rho <= 1e-12): no avoidance and no weight, but counted; nobody and nothing within radius: straight \
+               on; inside an obstacle: out of it with the greatest weight",
         random: &[],
         taxonomy: Taxonomy {
             composition: Composition::Homogeneous,
@@ -91,7 +92,7 @@ impl<R: Scalar> Law<R> for BoidsRuleVectors<R> {
 }
 
 impl<R: Scalar> BoidsRuleVectors<R> {
-    /// The weight of somebody or something at a distance.
+    /// The weight of somebody or something at a distance; no more than a million, which no sum of neighbours overflows.
     #[inline(always)]
     fn weight<L: Lanes<R>>(&self, distance: L) -> L {
         let near = L::splat(self.radius) / distance.greater(L::splat(self.radius / R::of(1000.0)));
@@ -190,6 +191,26 @@ mod tests {
         close(at(0.001) * 1e-6, [-1.0, 0.0]);
         close(at(0.0), [0.0, 0.0]);
         close(at(10.0), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn near_contact_the_weight_has_a_bound_and_in_contact_nobody_has_one() {
+        // the third is at half the radius and weighs 4; both others count, wherever they are
+        let at = |near: f64, normalise: &str| {
+            let agents = [[0.0, 0.0], [near, 0.0], [0.0, 5.0]].map(|place| (place, REST));
+            avoidance().set("normalise", normalise).step(&agents).velocity(0)
+        };
+        for near in [1e-300, 1e-100, 1e-13, 1e-12] {
+            close(at(near, "count"), [0.0, -2.0]);
+            close(at(near, "weights"), [0.0, -1.0]);
+        }
+        for near in [1.1e-12, 1e-9, 1e-4, 1e-2] {
+            close(at(near, "count") * 1e-6, [-0.5, -2e-6]);
+            close(at(near, "weights"), [-1e6 / 1_000_004.0, -4.0 / 1_000_004.0]);
+        }
+        // the cap of the speed holds there as anywhere
+        let w = Oracle::new("boids_rule_vectors").step(&[([0.0, 0.0], REST), ([1e-11, 0.0], REST)]);
+        close(w.velocity(0), [-2.0, 0.0]);
     }
 
     #[test]

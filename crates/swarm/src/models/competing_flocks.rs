@@ -1,7 +1,7 @@
 //! Five forces with evolvable weights: flocks that hold together, look for food and shun each other.
 //!
 //! The law of a 2019 study in which a flock whose weights are evolved competes for food with one whose weights are fixed
-//! (its equations 2 to 7), after K. Kawabayashi and Y. Chen (2008). What a meal gives and what living costs are resources of
+//! (its equations 2 to 7), after H. Kawabayashi and Y. Chen (2008). What a meal gives and what living costs are resources of
 //! the world, not of this law.
 
 use crate::card::*;
@@ -99,8 +99,9 @@ impl<R: Scalar> Law<R> for CompetingFlocks<R> {
         id: "competing_flocks",
         title: "Competing flocks with evolvable forces",
         about: "Boids hold together with their flock mates, steer to food and away from other flocks, with twelve weights each.",
-        reference: "A 2019 study of evolved flocks that compete for food (source 002), after K. Kawabayashi, Y. Chen (2008), \
-                    five-force boids; equations 2-7 of the study",
+        reference: "M. J. Hunter (2019), Investigating the Impact of a Genetic Algorithm on Inter-Flock Dynamics in a Competitive \
+                    Environment, BSc dissertation, Abertay University, equations 2-7; after H. Kawabayashi, Y. Chen (2008), \
+                    Interactive system of artificial fish school based on the extended boid model",
         equations: "m = mean d_ij over flock mates, d = |m|;  k = nearest of the n mates, s = rho_ik;  f = nearest food;  \
                     o = mean d_ij over others\n\
                     F = unit(m) (c0 d)^2/(c1 FlockSize) + unit(mean v_j) c2/(c3 d) - e_ik c4 (c5 n/(c6 s))^2\n\

@@ -67,7 +67,8 @@ impl<R: Scalar> Law<R> for KunzHemelrijk2003<R> {
         },
         departures: "an interpretation: the shapes are those of the source's figure (attraction in front, alignment at the sides)",
         edge: "empty zones add nothing; a coincident neighbour lies straight ahead and repels fully, to the right; noise comes \
-               after the limit; at rest the heading is angle 0",
+               after the limit; at rest the heading is angle 0 \
+               and nobody is unseen",
         random: &[RandomQuantity {
             name: "noise",
             about: "angle, normal with SD noise_deviation; behaviour slots 0 and 1",
@@ -130,7 +131,7 @@ impl<R: Scalar> Model<R, 2> for KunzHemelrijk2003<R> {
             if along < self.repulsion_radius {
                 let side = if phi < R::ZERO { R::ONE } else { -R::ONE };
                 repulsion.add(side * R::PI * R::HALF * (R::ONE - along / self.repulsion_radius));
-            } else if phi.abs() > view {
+            } else if phi.abs() > view && !me.velocity.is_tiny() {
             } else if distance < self.alignment_radius && phi.abs() >= front {
                 alignment.add((seen.velocity(k).angle() - theta).wrapped());
             } else if distance < self.attraction_radius {
@@ -189,6 +190,12 @@ mod tests {
         expect(free(), [0.0, 3.0], 27.0);
         expect(free(), [-1.5, 0.1], 0.0);
         expect(free(), [0.0, 5.0], 0.0);
+    }
+
+    #[test]
+    fn at_rest_it_sees_all_round() {
+        let w = free().set("w_a", 1.0).step(&[([0.0, 0.0], [0.0, 0.0]), ([-1.5, 0.1], [0.0, 1.0])]);
+        close(w.velocity(0), [0.5f64.sqrt(), 0.5f64.sqrt()]);
     }
 
     #[test]

@@ -46,7 +46,7 @@ impl<R: Scalar> Law<R> for Shimoyama1996<R> {
         reference: "N. Shimoyama, K. Sugawara, T. Mizuguchi, Y. Hayakawa, M. Sano (1996). Collective motion in a system of motile \
                     elements. Physical Review Letters 76, 3870-3873. doi:10.1103/PhysRevLett.76.3870",
         equations: "acc = (1/m)(-gamma v_i + a n_i + sum alpha_ij f_ij + g unit(mean d_ij)/|I|),  alpha_ij = 1 + d (n_i . e_ij)\n\
-                    f_ij = -c ((rho/r_c)^-3 - (rho/r_c)^-2) exp(-rho/r_c) d_ij/r_c\n\
+                    f_ij = -c (q^-3 - q^-2) exp(-q) q e_ij,  q = max(rho_ij/r_c, 1/1000)\n\
                     n_i' = unit(n_i + (Dt/tau)(vhat_i - (n_i . vhat_i) n_i)),  vhat = unit(v)\n\
                     v_i' = v_i + Dt acc;  x_i' = x_i + Dt v_i'",
         stages: Stages {
@@ -57,10 +57,11 @@ impl<R: Scalar> Law<R> for Shimoyama1996<R> {
             physics: "ideal",
             obstacles: "",
         },
-        departures: "n x v x n is read as n x (v x n), which turns n to v; otherwise it is 0 or grows n. The closest two members \
-                     count as a thousandth of r_c apart, so that forces stay finite",
-        edge: "coincident members have no pair force but count; at rest the axis stays; an axis that is not given is the heading \
-               (at rest the x axis)",
+        departures: "n x v x n is read as n x (v x n), which turns n to v; otherwise it is 0 or grows n. Members \
+                     less than r_c/1000 apart repel each other as at r_c/1000, by a million c, where the published force grows \
+                     without bound, so that it stays finite in both precisions",
+        edge: "coincident members (rho <= 1e-12) have no pair force but count; at rest the axis stays; an axis that is not given is \
+               the heading (at rest the x axis)",
         random: &[],
         taxonomy: Taxonomy {
             composition: Composition::Homogeneous,
@@ -109,6 +110,7 @@ impl<R: Scalar, const D: usize> Model<R, D> for Shimoyama1996<R> {
             let (direction, distance) = (seen.direction(k), seen.distance(k));
             centre += seen.offset(k);
             count += R::ONE;
+            // the published force has no bound near contact
             let share = (distance / self.optimal_distance).most(R::of(0.001));
             let squared = share * share;
             let strength = (R::ONE / squared - R::ONE / (squared * share)) * (-share).exp() * share;
@@ -179,6 +181,14 @@ mod tests {
         // at 1/2: -(8 - 4) exp(-1/2)/2 away
         close(first([0.0, 0.5]), [0.0, -0.05 * 2.0 * (-0.5f64).exp()]);
         close(first([0.0, 0.0]), [0.0, 0.0]);
+        // near contact no more than at a thousandth of r_c, and in contact nothing
+        let touching = 0.05 * (1e6 - 1e3) * (-1e-3f64).exp();
+        for near in [1.1e-12, 1e-9, 1e-4, 1e-3] {
+            close(first([0.0, near]) / touching, [0.0, -1.0]);
+        }
+        for near in [1e-300, 1e-100, 1e-13, 1e-12] {
+            close(first([0.0, near]), [0.0, 0.0]);
+        }
         // the pull to the centre of two is halved once more
         let w = Oracle::new("shimoyama_1996").set("a", 0.0).set("c", 0.0).step(&[
             ([0.0; 3], [0.0; 3]),

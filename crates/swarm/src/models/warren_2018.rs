@@ -24,7 +24,7 @@ parameters! {
         /// Distance below which others count.
         range: R = 5.0, "beta", "length", Positive, Paper;
         /// Full field of view.
-        field_of_view alias "fov_deg": R = 180.0, "alpha", "deg", Within(0.0, 360.0), Ours;
+        field_of_view alias "fov_deg": R = 180.0, "alpha", "deg", Within(0.0, 360.0), Source;
         /// Length of a step.
         time_step alias "dt": R = 0.05, "Dt", "time", Positive, Ours;
     }
