@@ -4,12 +4,13 @@ use crate::fault::{Fault, wrong};
 use crate::kinds::study::StudyOptions;
 use crate::kinds::{self, Input};
 use clap::Args;
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use lab::report::of_run;
 use lab::run::{self, End, Outcome, Request, Watch};
 use lab::scenario::build::{self, Read};
 use lab::store::{StoreError, folder};
 use serde_json::Value as Json;
+use space::parallel::MOST_THREADS;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -47,6 +48,21 @@ pub struct RunOptions {
     /// Options of studies.
     #[command(flatten)]
     pub study: StudyOptions,
+}
+
+impl RunOptions {
+    /// As they go for a single trial of a study, which has its own seed and length.
+    pub(crate) fn of_trial(&self) -> Self {
+        Self {
+            file: self.file.clone(),
+            out: self.out.clone(),
+            seed: None,
+            threads: self.threads,
+            set: Vec::new(),
+            quick: false,
+            study: StudyOptions::default(),
+        }
+    }
 }
 
 /// Options of `check`.
@@ -143,6 +159,30 @@ impl Progress {
     }
 }
 
+/// Time that is left for so many things to do, from how long the others took in this session; none before one was done. What
+/// earlier sessions did took none of this time, and must not be counted among the others.
+pub(crate) fn time_left(elapsed: Duration, done: u64, to_do: u64) -> Option<Duration> {
+    (done > 0).then(|| Duration::from_secs_f64(elapsed.as_secs_f64() * to_do as f64 / done as f64))
+}
+
+/// A bar on a terminal over `all` things, of which `from` were done before. Where `{left}` stands in the template is how long it
+/// will take at the mean pace of this session: that of `indicatif` takes what was there already for work of the first moment.
+pub(crate) fn bar(all: u64, from: u64, template: &str) -> ProgressBar {
+    let left = move |state: &ProgressState, out: &mut dyn core::fmt::Write| {
+        let to_do = state.len().unwrap_or(0).saturating_sub(state.pos());
+        // a terminal that cannot be written to has nobody to tell
+        let _ = match time_left(state.elapsed(), state.pos().saturating_sub(from), to_do) {
+            Some(left) => write!(out, "{left:#} left", left = HumanDuration(left)),
+            None => Ok(()),
+        };
+    };
+    let bar = ProgressBar::with_draw_target(Some(all), ProgressDrawTarget::stderr());
+    let style = ProgressStyle::with_template(template).unwrap_or(ProgressStyle::default_bar());
+    bar.set_style(style.with_key("left", left));
+    bar.set_position(from);
+    bar
+}
+
 pub(crate) fn rate(per_second: f64) -> String {
     match per_second {
         r if r >= 1e6 => format!("{:.1} M agent-updates/s", r / 1e6),
@@ -159,11 +199,7 @@ impl Watch for Progress {
         eprintln!("{}: {verb}; {steps} steps, {} agents, seed {seed}", folder.display(), self.agents);
         self.stride = (20_000 / self.agents.max(1)).max(1);
         if !self.quiet {
-            self.bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr());
-            let template = "{bar:30} {percent:>3} %  {pos}/{len} steps  {msg}  {eta} left";
-            self.bar.set_style(ProgressStyle::with_template(template).unwrap_or(ProgressStyle::default_bar()));
-            self.bar.set_position(from);
-            self.bar.reset_eta();
+            self.bar = bar(steps, from, "{bar:30} {percent:>3} %  {pos}/{len} steps  {msg}  {left}");
         }
     }
     fn at(&mut self, step: u64) {
@@ -178,14 +214,8 @@ impl Watch for Progress {
             }
         } else if self.told.elapsed() > QUIET {
             self.told = Instant::now();
-            let done = (step - self.from).max(1) as f64;
-            let left = self.began.elapsed().as_secs_f64() / done * (self.steps - step) as f64;
-            eprintln!(
-                "step {step} of {}, {}, about {} left",
-                self.steps,
-                self.rate(step),
-                HumanDuration(Duration::from_secs_f64(left))
-            );
+            let left = time_left(self.began.elapsed(), step - self.from, self.steps - step).unwrap_or_default();
+            eprintln!("step {step} of {}, {}, about {} left", self.steps, self.rate(step), HumanDuration(left));
         }
     }
     fn stop(&self) -> bool {
@@ -198,14 +228,26 @@ impl Watch for Progress {
 /// # Errors
 /// What is wrong with the input, the folder or the system.
 pub fn run(options: &RunOptions, out: &mut dyn Write) -> Result<u8, Fault> {
-    if options.threads == Some(0) {
-        return wrong("--threads must be 1 or more, found 0");
-    }
+    check_threads(options.threads)?;
     if let Some(seed) = options.seed.filter(|&seed| i64::try_from(seed).is_err()) {
         return wrong(format!("--seed must be below 2^63, found {seed}"));
     }
+    let gives_seed = |set: &&String| set.split_once('=').is_some_and(|(path, _)| path.trim() == "seed");
+    if let (Some(seed), Some(set)) = (options.seed, options.set.iter().find(gives_seed)) {
+        return wrong(format!("`--seed {seed}` and `--set {set}` both give the seed; leave one of them out"));
+    }
     let (kind, input) = kinds::read(&options.file, &options.set)?;
     kind.run(input, options, out)
+}
+
+/// Refuses a number of threads that no machine has.
+pub(crate) fn check_threads(threads: Option<usize>) -> Result<(), Fault> {
+    match threads {
+        Some(threads) if !(1..=MOST_THREADS).contains(&threads) => {
+            wrong(format!("--threads must be from 1 to {MOST_THREADS}, found {threads}"))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Listens for Ctrl-C: the first one asks to stop, which [`stopped`] tells; a second one ends at once, and what was
@@ -333,4 +375,21 @@ pub(crate) fn report_of_run(path: &Path, out: &mut dyn Write) -> Result<(), Faul
     })?;
     writeln!(out, "page    {}", path.join(run::REPORT).display())?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_there_before_makes_nothing_look_faster() {
+        let second = Duration::from_secs(1);
+        assert_eq!(time_left(second, 0, 100), None);
+        assert_eq!(time_left(10 * second, 5, 20), Some(40 * second));
+        assert_eq!(time_left(10 * second, 5, 0), Some(Duration::ZERO));
+        let mut progress = Progress { agents: 10, from: 900, steps: 1000, ..Progress::new(10) };
+        progress.began = Instant::now().checked_sub(10 * second).unwrap_or_else(Instant::now);
+        // 50 steps of 10 agents in 10 s, and not 950
+        assert_eq!(progress.rate(950), "50 agent-updates/s");
+    }
 }

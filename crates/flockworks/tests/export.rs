@@ -159,3 +159,42 @@ fn a_film_is_made_where_there_is_an_ffmpeg_and_else_the_message_says_so() {
     let bytes: usize = film.lines().last().unwrap().trim().parse().unwrap();
     assert_eq!(bytes, 4 * 3 * wide.parse::<usize>().unwrap() * tall.parse::<usize>().unwrap(), "four whole pictures");
 }
+
+#[test]
+fn obstacles_are_told_point_by_point() {
+    let folder = place("export-obstacles");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("walls.toml");
+    let scenario = r#"
+kind = "scenario"
+title = "Obstacles of several shapes"
+time.duration = 5
+space = { dimensions = 2, edges = "open" }
+[group.points]
+count = 3
+model = "vicsek_1995"
+start.place.points = [[0, 0], [1, 0], [2, 0]]
+[[obstacle]]
+shape.ball = { centre = [9, 9.5], radius = 0.25 }
+[[obstacle]]
+shape.segment = { from = [-9, 1], to = [-9, 2] }
+[[obstacle]]
+shape.polygon = [[20, 0], [21, 0], [21, 1]]
+"#;
+    std::fs::write(&file, scenario).unwrap();
+    let run = folder.join("run");
+    let done = flockworks(&["run", file.to_str().unwrap(), "--out", run.to_str().unwrap()]);
+    assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
+    let done = flockworks(&["export", run.to_str().unwrap(), "--to", "csv"]);
+    assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
+    let rows = std::fs::read_to_string(run.join("obstacles.csv")).unwrap();
+    let expected = "run,obstacle,shape,point,x,y,radius,nx,ny\n\
+                    0,0,ball,centre,9,9.5,0.25,,\n\
+                    0,1,segment,end,-9,1,,,\n\
+                    0,1,segment,end,-9,2,,,\n\
+                    0,2,polygon,corner,20,0,,,\n\
+                    0,2,polygon,corner,21,0,,,\n\
+                    0,2,polygon,corner,21,1,,,\n";
+    assert_eq!(rows, expected);
+}

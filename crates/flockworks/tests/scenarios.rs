@@ -69,18 +69,19 @@ fn every_shipped_scenario_runs_and_leaves_a_whole_folder() {
         let mut files: Vec<String> =
             std::fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
         files.sort();
-        assert_eq!(
-            files,
-            [
-                "events.parquet",
-                "keyframes.log",
-                "manifest.json",
-                "metrics.parquet",
-                "report.html",
-                "trajectory.parquet"
-            ],
-            "{name}"
-        );
+        // where there are obstacles, their places are a table too
+        let obstacles = files.iter().position(|name| name == "obstacles.parquet").map(|at| files.remove(at));
+        let source = std::fs::read_to_string(&file).unwrap();
+        assert_eq!(obstacles.is_some(), source.contains("[[obstacle]]") || source.contains("[scatter."), "{name}");
+        let usual = [
+            "events.parquet",
+            "keyframes.log",
+            "manifest.json",
+            "metrics.parquet",
+            "report.html",
+            "trajectory.parquet",
+        ];
+        assert_eq!(files, usual, "{name}");
         assert_eq!(manifest(&out)["status"], "complete");
         let page = std::fs::read_to_string(out.join("report.html")).unwrap();
         assert!(page.contains("<svg") && page.contains("Methods"), "{name}");
@@ -204,7 +205,8 @@ fn the_folder_of_another_run_is_refused_with_the_difference() {
     assert_eq!(other.status.code(), Some(2));
     assert!(text(&other.stderr).contains("group.flock.count: 15 there, 14 now"), "{}", text(&other.stderr));
     let seed = ran(&["run", &file, "--quick", "--out", out.to_str().unwrap(), "--seed", "9"]);
-    assert!(text(&seed.stderr).contains("seed: 10 there, 9 now"), "{}", text(&seed.stderr));
+    let there = format!("seed: {} there, 9 now", manifest(&out)["seed"]);
+    assert!(text(&seed.stderr).contains(&there), "{}", text(&seed.stderr));
     assert_eq!(before, results(&out), "nothing changed");
     let foreign = fresh("foreign");
     std::fs::create_dir_all(&foreign).unwrap();
@@ -218,7 +220,8 @@ fn the_folder_of_another_run_is_refused_with_the_difference() {
 fn a_seed_that_was_not_given_is_told_and_kept() {
     let file = fresh("seedless.toml");
     let source = std::fs::read_to_string(study("gallery/corral.toml")).unwrap();
-    std::fs::write(&file, source.replace("seed = 10\n", "")).unwrap();
+    let lines: Vec<&str> = source.lines().filter(|line| !line.starts_with("seed = ")).collect();
+    std::fs::write(&file, lines.join("\n")).unwrap();
     let (one, two) = (fresh("seedless-1"), fresh("seedless-2"));
     let first = run(file.to_str().unwrap(), &one, &[]);
     let seed = manifest(&one)["seed"].as_u64().unwrap().to_string();
@@ -353,6 +356,232 @@ fn what_is_wrong_in_a_file_is_shown_at_its_place() {
     }
 }
 
+/// A scenario with whatever can be wrong in one line of it.
+const SMALL: &str = r#"
+kind = "scenario"
+title = "Small"
+units = { length = "m", time = "s" }
+[time]
+duration = 20
+step = 0.1
+[space]
+dimensions = 2
+edges = "walls"
+size = 25
+[[obstacle]]
+shape.ball = { centre = [12, 12], radius = 2 }
+[group.fish]
+count = 3
+model.couzin_2002 = { speed = 0.5 }
+start = { place = { points = [[5, 5], [6, 6], [7, 7]] } }
+physics = { radius = 0.25, contact = "slide" }
+[group.others]
+count = 1
+model = { vicsek_1995 = { radius = 1 } }
+start = { place = { points = [[20, 20]] } }
+physics = { radius = 0.25, contact = "refuse" }
+[record]
+interval = 1
+[measure]
+metrics = ["polarisation", "group_count"]
+parameters = { linking_distance = 1 }
+interval = 1
+"#;
+
+/// What `check` says of it, with a line changed, and its exit code.
+fn small(name: &str, from: &str, to: &str) -> (Option<i32>, String) {
+    assert_eq!(SMALL.matches(from).count(), 1, "`{from}`");
+    let path = fresh(&format!("small-{name}.toml"));
+    std::fs::write(&path, SMALL.replace(from, to)).unwrap();
+    let run = ran(&["check", path.to_str().unwrap()]);
+    (run.status.code(), text(&run.stderr))
+}
+
+#[test]
+fn bodies_cannot_begin_in_walls_obstacles_or_each_other() {
+    let refused = [
+        ("[7, 7]", "[12, 13]", "`obstacle.0`", "[12, 13]"),
+        ("[7, 7]", "[9.8, 12]", "`obstacle.0`", "[9.8, 12]"),
+        ("[7, 7]", "[7, 0.2]", "into a wall here, on axis 1", "[7, 0.2]"),
+        ("[7, 7]", "[5, 5.4]", "overlap that of member 0", "[5, 5.4]"),
+        ("[7, 7]", "[6, 6]", "overlap that of member 1: 0 apart", "[6, 6]"),
+        ("[20, 20]", "[7.3, 7]", "member 2 of `fish`", "[7.3, 7]"),
+    ];
+    for (number, (from, to, what, at)) in refused.into_iter().enumerate() {
+        let (code, told) = small(&format!("body-{number}"), from, to);
+        assert_eq!(code, Some(2), "{to}");
+        let carets = format!("{} no room for a body", "^".repeat(at.len()));
+        assert!(told.contains(what) && told.contains(&carets), "{told}");
+    }
+    // who only touches, and who may be anywhere
+    let fine = [
+        ("[7, 7]", "[5, 5.5]"),
+        ("[7, 7]", "[7, 0.25]"),
+        ("contact = \"slide\"", "contact = \"free\""),
+        ("[[5, 5], [6, 6], [7, 7]] }", "[[5, 5], [5, 5.1], [12, 12]] }, jitter = 0.1"),
+    ];
+    for (number, (from, to)) in fine.into_iter().enumerate() {
+        let (code, told) = small(&format!("fine-{number}"), from, to);
+        assert_eq!(code, Some(0), "{to}: {told}");
+    }
+}
+
+#[test]
+fn what_would_have_no_effect_is_refused() {
+    for (number, (from, to, parts)) in [
+        (
+            "interval = 1\n[measure]",
+            "interval = 30\n[measure]",
+            ["`record.interval` is 30, longer than the run", "at most 20"],
+        ),
+        (
+            "count = 1\n",
+            "count = 1\nselect = { neighbours = { k_nearest = 0 } }\n",
+            ["`k_nearest` must be more than 0", "^ "],
+        ),
+        (
+            "count = 1\n",
+            "count = 1\nsensing = { laser = { detection = \"sensor_based\", association = 1, front_step = 2000 } }\n",
+            ["the step along the heading (2000) is none of the 1024 of a turn", "^^^^ not possible"],
+        ),
+        (
+            "count = 1\n",
+            "count = 1\nsensing.laser = { detection.clustered = { least_width = 2 }, association = 1 }\n",
+            ["the least width (2) is above the greatest (0.5)", "^ not possible"],
+        ),
+        (
+            "count = 1\n",
+            "count = 1\nsensing.laser = { detection.member_based = { least_readings = 5000 }, association = 1 }\n",
+            ["the 682 rays never give 5000 readings", "^^^^ not possible"],
+        ),
+        ("duration = 20", "duration = 1e-9", ["shorter than a step of 0.1", "at least one step"]),
+        (
+            "place = { points = [[5, 5], [6, 6], [7, 7]] }",
+            "place.lattice = { centre = [5, 5], spacing = 0.4 }",
+            ["overlap", "^"],
+        ),
+        ("[7, 7]", "[7, 26]", ["26 lies outside the space", "^^ a place inside"]),
+        (
+            "\"group_count\"",
+            "\"kth_neighbour_distance\"",
+            ["no measured metric has a parameter `linking_distance`", "^^^^"],
+        ),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let (code, told) = small(&format!("effect-{number}"), from, to);
+        assert_eq!(code, Some(2), "{to}");
+        assert!(parts.iter().all(|part| told.contains(part)), "{parts:?} not in {told}");
+    }
+    let (code, told) =
+        small("measure", "linking_distance = 1 }\ninterval = 1", "linking_distance = 1 }\ninterval = 20.1");
+    assert_eq!(code, Some(2));
+    assert!(told.contains("`measure.interval` is 20.1") && told.contains("^^^^^^^^ at most 20"), "at the key: {told}");
+    // a run of no time shows how it begins
+    assert_eq!(small("no-time", "duration = 20", "duration = 0").0, Some(0));
+}
+
+#[test]
+fn carets_stand_at_what_is_wrong() {
+    let with = |text: &str| format!("count = 1\n{text}");
+    for (number, (from, to, marked, what)) in [
+        (
+            "linking_distance = 1 }",
+            "linkin_distance = 1 }".to_owned(),
+            "linkin_distance",
+            "did you mean `linking_distance`?",
+        ),
+        ("linking_distance = 1 }", "foo = 1 }".to_owned(), "foo", "those that are measured take linking_distance"),
+        ("linking_distance = 1 }", "eps = 1 }".to_owned(), "eps", "it is a parameter of dbscan_"),
+        (
+            "radius = 0.25, contact = \"slide\"",
+            "radius = 0.25, length = 0.1".to_owned(),
+            "0.1",
+            "length: an elongated body",
+        ),
+        (
+            "radius = 0.25, contact = \"slide\"",
+            "radius = 0.25, mobility = { turn_limited = { rate = 1, vertical = 2 } }".to_owned(),
+            "2",
+            "a vertical turn rate needs three dimensions",
+        ),
+        (
+            "count = 1\n",
+            with("select = { neighbors = { k_nearest = 1 } }\n"),
+            "neighbors",
+            "did you mean `neighbours`?",
+        ),
+        ("[[20, 20]] }", "[[20, 20]] }, state = { foo = 1 }".to_owned(), "foo", "no column `foo`"),
+        ("{ radius = 1 }", "{ radius = 1, time_step = 2 }".to_owned(), "time_step", "given here and as time.step"),
+        ("[time]\nduration = 20\nstep = 0.1", "time = { step = 0.1 }".to_owned(), "time", "`duration` is missing"),
+        (
+            "step = 0.1",
+            "step = 0.1\ndriver = { asynchronous = { delay = 1e6 } }".to_owned(),
+            "1e6",
+            "delay of readings",
+        ),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let (code, told) = small(&format!("caret-{number}"), from, &to);
+        assert_eq!(code, Some(2), "{to}");
+        assert!(told.contains(what), "`{what}` not in {told}");
+        // the line that is shown, and the carets below it
+        let mut lines =
+            told.lines().skip_while(|line| !line.contains(" | ")).map(|line| line.split_once('|').unwrap().1);
+        let (line, below) = (lines.next().unwrap(), lines.next().unwrap());
+        let carets: String =
+            line.chars().zip(below.chars()).filter(|(_, mark)| *mark == '^').map(|(shown, _)| shown).collect();
+        assert_eq!(carets, marked, "{told}");
+    }
+}
+
+#[test]
+fn the_readme_shows_what_the_program_says() {
+    let folder = fresh("readme");
+    std::fs::create_dir_all(&folder).unwrap();
+    let template = text(&ran(&["new", "scenario"]).stdout);
+    assert!(template.contains("\nduration = 200"));
+    std::fs::write(folder.join("flock.toml"), template.replace("\nduration = 200", "\nduraton = 200")).unwrap();
+    let run = flockworks().current_dir(&folder).args(["check", "flock.toml"]).output().unwrap();
+    assert_eq!(run.status.code(), Some(2));
+    let told: String =
+        text(&run.stderr).lines().map(|line| format!("    {line}").trim_end().to_owned() + "\n").collect();
+    let readme = std::fs::read_to_string(format!("{}/../../README.md", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    assert!(readme.contains(&told), "the README does not show:\n{told}");
+}
+
+#[test]
+fn a_complete_run_that_lacks_a_table_is_told_from_a_whole_one() {
+    let out = fresh("lacking");
+    let file = study("gallery/corral.toml");
+    run(&file, &out, &["--quick"]);
+    let folder = out.to_str().unwrap();
+    let again = || ran(&["run", &file, "--quick", "--out", folder]);
+    assert_eq!(again().status.code(), Some(0));
+    for name in ["trajectory.parquet", "metrics.parquet", "events.parquet", "obstacles.parquet", "keyframes.log"] {
+        let bytes = std::fs::read(out.join(name)).unwrap();
+        std::fs::remove_file(out.join(name)).unwrap();
+        let refused = again();
+        assert_eq!(refused.status.code(), Some(2), "{name}");
+        let told = text(&refused.stderr);
+        assert!(told.contains(name) && told.contains("remove the folder to run anew"), "{told}");
+        std::fs::write(out.join(name), bytes).unwrap();
+        assert_eq!(again().status.code(), Some(0), "{name}");
+    }
+    std::fs::remove_file(out.join("report.html")).unwrap();
+    assert!(text(&again().stderr).contains("`flockworks report "), "{}", text(&again().stderr));
+    assert_eq!(ran(&["report", folder]).status.code(), Some(0));
+    assert_eq!(again().status.code(), Some(0));
+    // a run without positions lacks none
+    let out = fresh("lacking-none");
+    for _ in 0..2 {
+        run(&file, &out, &["--quick", "--set", "record.trajectory=false"]);
+    }
+}
+
 #[test]
 fn all_problems_of_a_file_are_shown_at_once() {
     let path = fresh("many.toml");
@@ -372,7 +601,11 @@ fn all_problems_of_a_file_are_shown_at_once() {
 fn wrong_settings_are_refused() {
     let file = study("gallery/corral.toml");
     for (set, part) in [
-        (&["group.flock.count=10", "group.flock.count=11"][..], "is set twice"),
+        (&["group.flock.count=10", "group.flock.count=11"][..], "`--set group.flock.count=10` sets it already"),
+        (&["group.flock.count=10", "group.flock={ count = 3 }"], "contradicts `group.flock.count`"),
+        (&["group.flock={ count = 3 }", "group.flock.count=10"], "lies within `group.flock`"),
+        (&["time.duration=10", "time.duration.more=10"], "contradicts `time.duration`"),
+        (&["group.flock.count=[1"], "unclosed array"),
         (&["flock.count=10"], "unknown key `flock`"),
         (&["group.flock.coutn=10"], "did you mean `count`?"),
         (&["group.flock.count"], "has no `=`"),
@@ -383,10 +616,22 @@ fn wrong_settings_are_refused() {
         let run = ran(&[&["check", &file], &sets[..]].concat());
         assert_eq!(run.status.code(), Some(2), "{set:?}");
         assert!(text(&run.stderr).contains(part), "{set:?}: {}", text(&run.stderr));
+        let consequences = text(&run.stderr).contains("problems");
+        assert!(!consequences, "one mistake, one problem: {set:?}: {}", text(&run.stderr));
     }
-    for arguments in [&["--threads", "0"][..], &["--seed", "-1"], &["--seed", "18446744073709551615"], &["--nothing"]] {
+    for (arguments, part) in [
+        (&["--threads", "0"][..], "from 1 to 1024, found 0"),
+        (&["--threads", "100000"], "from 1 to 1024, found 100000"),
+        (&["--seed", "-1"], ""),
+        (&["--seed", "18446744073709551615"], "below 2^63"),
+        (&["--seed", "3", "--set", "seed=4"], "`--seed 3` and `--set seed=4` both give the seed"),
+        (&["--nothing"], ""),
+        (&["--out", &file], "is no folder"),
+    ] {
         let run = ran(&[&["run", &file], arguments].concat());
         assert_eq!(run.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&run.stderr).contains(part), "{arguments:?}: {}", text(&run.stderr));
+        assert!(run.stdout.is_empty(), "nothing ran: {arguments:?}");
     }
 }
 
@@ -545,7 +790,7 @@ fn bodies_of_any_scenario_may_be_elongated() {
     let wrong = ran(&["check", &file, "--set", "group.fish.physics.length=1"]);
     assert_eq!(wrong.status.code(), Some(2));
     let told = text(&wrong.stderr);
-    assert!(told.contains("from 2 to 66; found 1") && told.contains("[group.fish]"), "{told}");
+    assert!(told.contains("from 2 to 66; found 1") && told.contains("--set:1:1"), "{told}");
 }
 
 #[test]

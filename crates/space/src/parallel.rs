@@ -14,6 +14,9 @@ use std::thread::JoinHandle;
 /// How often a thread looks for what it waits for before it gives its processor away; some hundred microseconds.
 const SPINS: u32 = 5000;
 
+/// No more workers than these: far above the processors of any machine, far below what a system lets one process have.
+pub const MOST_THREADS: usize = 1024;
+
 /// A set of worker threads. One thread means the caller's own.
 pub struct Workers {
     room: Option<Arc<Room>>,
@@ -21,8 +24,9 @@ pub struct Workers {
 }
 
 impl Workers {
-    /// `threads` workers (at least one), the caller included. As many fewer as the system refuses.
+    /// `threads` workers (at least one, at most [`MOST_THREADS`]), the caller included. As many fewer as the system refuses.
     pub fn new(threads: usize) -> Self {
+        let threads = threads.min(MOST_THREADS);
         if threads <= 1 {
             return Self { room: None, threads: Vec::new() };
         }
@@ -283,6 +287,17 @@ mod tests {
             });
             assert!(seen.iter().all(|&n| n == 1));
         }
+    }
+
+    #[test]
+    fn there_are_no_more_threads_than_a_system_has() {
+        let workers = Workers::new(usize::MAX);
+        assert!(workers.threads() <= MOST_THREADS);
+        let count = AtomicUsize::new(0);
+        workers.each(3, |_, _| {
+            count.fetch_add(1, Ordering::Relaxed);
+        });
+        assert_eq!(count.into_inner(), 3);
     }
 
     #[test]

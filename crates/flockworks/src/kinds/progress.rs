@@ -4,7 +4,7 @@
 use super::Input;
 use crate::fault::{Fault, wrong};
 use crate::run::{self, INTERRUPTED, QUIET, RunOptions, rate};
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget};
 use lab::environment::work::Watch;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -102,9 +102,7 @@ impl Watch for Progress {
         let kept = if there > 0 { format!(", {there} are there already") } else { String::new() };
         eprintln!("{}: {units} {what} on {threads} threads{kept}", folder.display());
         if !self.quiet {
-            self.bar = ProgressBar::with_draw_target(Some(units as u64), ProgressDrawTarget::stderr());
-            let template = "{bar:30} {percent:>3} %  {msg}  {eta} left";
-            self.bar.set_style(ProgressStyle::with_template(template).unwrap_or(ProgressStyle::default_bar()));
+            self.bar = run::bar(units as u64, 0, "{bar:30} {percent:>3} %  {msg}  {left}");
             self.bar.enable_steady_tick(Duration::from_millis(500));
         }
     }
@@ -123,7 +121,8 @@ impl Watch for Progress {
             self.bar.set_message(format!("{done}/{all} {what}  {speed}"));
         } else if self.told.elapsed() > QUIET {
             self.told = Instant::now();
-            let left = Duration::from_secs_f64((seconds * (all as f64 / done as f64 - 1.0)).max(0.0));
+            let to_do = all.saturating_sub(done) as u64;
+            let left = run::time_left(self.began.elapsed(), done as u64, to_do).unwrap_or_default();
             eprintln!("{done} of {all} {what}, {speed}, about {} left", HumanDuration(left));
         }
     }

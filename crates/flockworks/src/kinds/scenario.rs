@@ -5,7 +5,7 @@ use crate::fault::{Fault, wrong};
 use crate::run::{self, RunOptions};
 use crate::view::ViewOptions;
 use lab::live::{LiveError, Recorded, Shown};
-use lab::run::{EVENTS, METRICS, TRAJECTORY};
+use lab::run::{EVENTS, METRICS, OBSTACLES, TRAJECTORY};
 use lab::scenario::{self, build};
 use serde_json::Value as Json;
 use std::io::Write;
@@ -61,7 +61,7 @@ impl Kind for Scenario {
     }
     fn tables(&self, folder: &Path) -> Result<Vec<&'static str>, Fault> {
         run::read_back(folder)?;
-        Ok(vec![TRAJECTORY, METRICS, EVENTS])
+        Ok(vec![TRAJECTORY, METRICS, EVENTS, OBSTACLES])
     }
     fn report(&self, folder: &Path, out: &mut dyn Write) -> Result<(), Fault> {
         run::report_of_run(folder, out)

@@ -3,7 +3,7 @@
 use super::source::{Problem, Span};
 use super::tree::{Entry, Node, Tree};
 use space::spelling::nearest;
-use swarm::parameters::{GREATEST, Range};
+use swarm::parameters::Range;
 
 /// What is asked of the numbers in a field.
 #[derive(Clone, Copy, Debug)]
@@ -149,8 +149,8 @@ impl Desk {
         }
     }
     /// The value of a key that must be there, or the note that it is missing.
-    pub fn need<'a>(&mut self, at: &Span, entries: &'a [Entry], key: &str) -> Option<&'a Node> {
-        let found = entries.iter().find(|e| e.key == key).map(|e| &e.node);
+    pub fn need(&mut self, at: &Span, entries: &[Entry], key: &str) -> Option<Node> {
+        let found = entries.iter().find(|e| e.key == key).map(told_at_key);
         if found.is_none() {
             let help = self.new_names.iter().find(|(place, _)| place == at).map_or("", |(_, help)| help).to_owned();
             self.problem(at, format!("`{key}` is missing"), format!("`{key}` must be given here"), help);
@@ -169,8 +169,7 @@ impl Desk {
         }
     }
     fn outside<T>(&mut self, node: &Node, rule: &Rule<'_>, expected: String) -> Option<T> {
-        let found = node.tree.number().unwrap_or(f64::NAN);
-        let found = if found.abs() > GREATEST { format!("{found:e}") } else { found.to_string() };
+        let found = node.tree.describe();
         let what = format!("{} must be {expected}, found {found}", quoted(rule.name));
         self.problem(&node.span, what, format!("expected {expected}"), "");
         None
@@ -356,9 +355,9 @@ impl<T: Form> Form for Named<T> {
         let entries = desk.table(node, rule)?;
         let mut read = Vec::with_capacity(entries.len());
         for entry in entries {
-            // what is missing in a table is said at the table's name
-            let below = Node { tree: entry.node.tree.clone(), span: place_of(entry) };
-            read.push(T::read(&below, &Rule { name: &entry.key, ..*rule }, desk).map(|t| (entry.key.clone(), t)));
+            read.push(
+                T::read(&told_at_key(entry), &Rule { name: &entry.key, ..*rule }, desk).map(|t| (entry.key.clone(), t)),
+            );
         }
         read.into_iter().collect::<Option<_>>().map(Self)
     }
@@ -373,6 +372,11 @@ impl<T: Form> Form for Named<T> {
 /// Where to point for the value of a key: at the key when the value is a table, which may lie anywhere.
 pub fn place_of(entry: &Entry) -> Span {
     if matches!(entry.node.tree, Tree::Table(_)) { entry.span.clone() } else { entry.node.span.clone() }
+}
+
+/// The value of a key, so that what is missing in a table is told at the table's name.
+pub fn told_at_key(entry: &Entry) -> Node {
+    Node { tree: entry.node.tree.clone(), span: place_of(entry) }
 }
 
 /// A table without keys, for choices that need no more said.
@@ -401,7 +405,7 @@ pub fn choice<'a>(node: &'a Node, rule: &Rule<'_>, known: &[&str], desk: &mut De
             (word.as_str(), &node.span, below)
         }
         Tree::Table(entries) => match entries.as_slice() {
-            [one] => (one.key.as_str(), &one.span, Node { tree: one.node.tree.clone(), span: place_of(one) }),
+            [one] => (one.key.as_str(), &one.span, told_at_key(one)),
             [] => {
                 let what = format!("{} is empty", quoted(rule.name));
                 desk.problem(&node.span, what, format!("expected one of {}", known.join(", ")), "");
@@ -499,16 +503,13 @@ macro_rules! form {
     };
     (@read $node:ident, $entries:ident, $rule:ident, $desk:ident, $field:ident, $type:ty, need) => {
         $desk.need(&$node.span, $entries, stringify!($field))
-            .and_then(|found| <$type as $crate::file::Form>::read(found, &$rule, $desk))
+            .and_then(|found| <$type as $crate::file::Form>::read(&found, &$rule, $desk))
     };
     (@read $node:ident, $entries:ident, $rule:ident, $desk:ident, $field:ident, $type:ty, none) => {
         match $entries.iter().find(|e| e.key == stringify!($field)) {
             None => Some(None),
             Some(entry) => {
-                let below = $crate::file::Node {
-                    tree: entry.node.tree.clone(),
-                    span: $crate::file::form::place_of(entry),
-                };
+                let below = $crate::file::form::told_at_key(entry);
                 $crate::file::form::read_some(&below, &$rule, $desk)
             }
         }
@@ -517,10 +518,7 @@ macro_rules! form {
         match $entries.iter().find(|e| e.key == stringify!($field)) {
             None => Some(<$type>::from($default)),
             Some(entry) => {
-                let below = $crate::file::Node {
-                    tree: entry.node.tree.clone(),
-                    span: $crate::file::form::place_of(entry),
-                };
+                let below = $crate::file::form::told_at_key(entry);
                 <$type as $crate::file::Form>::read(&below, &$rule, $desk)
             }
         }

@@ -69,9 +69,7 @@ impl Tree {
     /// What kind of value it is, in words.
     pub fn describe(&self) -> String {
         match self {
-            // not hundreds of digits
-            Self::Number(number) if number.abs() > 1e15 && number.is_finite() => format!("{number:e}"),
-            Self::Number(number) => number.to_string(),
+            Self::Number(number) => written(*number),
             Self::Whole(number) => number.to_string(),
             Self::Truth(truth) => truth.to_string(),
             Self::Text(text) if text.chars().count() > 40 => "a long text".into(),
@@ -106,6 +104,13 @@ impl Tree {
     }
 }
 
+/// A number as it is told, never with hundreds of digits.
+pub fn written(number: f64) -> String {
+    let size = number.abs();
+    let long = size.is_finite() && (size > 1e15 || (size < 1e-6 && size > 0.0));
+    if long { format!("{number:e}") } else { number.to_string() }
+}
+
 impl Node {
     /// The value of a key; none where this is no table.
     pub fn get(&self, key: &str) -> Option<&Node> {
@@ -114,6 +119,13 @@ impl Node {
     /// The place that says most about a path like `group.fish.count`: that of its last key, or of the nearest part
     /// of the path that is there.
     pub fn place(&self, path: &str) -> Span {
+        self.found(path, false)
+    }
+    /// As [`Self::place`], of the last key itself and not of its value.
+    pub fn key_place(&self, path: &str) -> Span {
+        self.found(path, true)
+    }
+    fn found(&self, path: &str, of_key: bool) -> Span {
         let mut node = self;
         let mut span = self.span.clone();
         for part in path.split('.').filter(|part| !part.is_empty()) {
@@ -122,8 +134,8 @@ impl Node {
                 Tree::List(list) => part.parse().ok().and_then(|k: usize| list.get(k)).map(|n| (n, &n.span)),
                 _ => None,
             };
-            let Some((below, place)) = next else { break };
-            span = if matches!(below.tree, Tree::Table(_)) { place.clone() } else { below.span.clone() };
+            let Some((below, key)) = next else { break };
+            span = if of_key || matches!(below.tree, Tree::Table(_)) { key.clone() } else { below.span.clone() };
             node = below;
         }
         span
@@ -341,6 +353,8 @@ mod tests {
         assert_eq!(of("b.c.d.9"), "[1.5, true, \"x\", 0x10]");
         assert_eq!(of("b.c.e.f"), "-inf");
         assert_eq!(of("b.c.nothing"), "c");
+        let key = |path: &str| text[node.key_place(path).bytes].to_owned();
+        assert_eq!([key("b.c.e.f"), key("a"), key("b.c.nothing")], ["f", "a", "c"]);
     }
 
     #[test]

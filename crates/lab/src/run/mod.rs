@@ -1,5 +1,6 @@
 //! A run: a scenario stepped from its start to its end, watched, recorded, and continued where it stopped.
 
+mod obstacles;
 pub mod recorder;
 pub mod tables;
 
@@ -27,6 +28,8 @@ pub const TRAJECTORY: &str = "trajectory.parquet";
 pub const METRICS: &str = "metrics.parquet";
 /// What happened.
 pub const EVENTS: &str = "events.parquet";
+/// Where obstacles were drawn, where there are any.
+pub const OBSTACLES: &str = "obstacles.parquet";
 /// The page.
 pub const REPORT: &str = "report.html";
 
@@ -150,6 +153,11 @@ fn place(request: &Request, identity: &Json) -> Result<(PathBuf, Option<Json>), 
         there == Some(identity.to_string()) && (seed.is_none() || seed == kept)
     };
     if let Some(out) = &request.out {
+        if out.exists() && !out.is_dir() {
+            let what =
+                format!("`{}` is no folder, in which results could be put; choose another with --out", out.display());
+            return Err(StoreError::Refused(what));
+        }
         let manifest = folder::manifest(out)?;
         let kind = manifest.as_ref().and_then(|manifest| manifest.get("kind")).and_then(Json::as_str);
         if let Some(kind) = kind.filter(|&kind| kind != "scenario") {
@@ -210,7 +218,9 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     let kept = before.as_ref().and_then(|manifest| manifest.get("seed")).and_then(Json::as_u64);
     let seed = kept.or(request.seed).or(request.read.scenario.seed).unwrap_or_else(drawn_seed);
     let outcome = |end, updates, seconds| Outcome { folder: path.clone(), end, seed, updates, seconds };
-    if before.as_ref().is_some_and(|manifest| manifest.get("status") == Some(&json!("complete"))) {
+    let complete = |manifest: &Json| manifest.get("status") == Some(&json!("complete"));
+    if before.as_ref().is_some_and(complete) {
+        whole(&path, request)?;
         return Ok(outcome(End::Already, 0, 0.0));
     }
     let schedule = build::schedule(&request.read.scenario, request.quick)
@@ -221,7 +231,8 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     let folder = Folder::claim(&path)?;
     // another process may have had the folder in the meantime
     let before = folder::manifest(&path)?;
-    if before.as_ref().is_some_and(|manifest| manifest.get("status") == Some(&json!("complete"))) {
+    if before.as_ref().is_some_and(complete) {
+        whole(&path, request)?;
         return Ok(outcome(End::Already, 0, 0.0));
     }
     let agents: usize = request.read.scenario.group.0.iter().map(|(_, group)| group.count).sum();
@@ -266,6 +277,32 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Outcome, StoreErr
     let growing = folder.file(GROWING);
     std::fs::remove_file(&growing).map_err(|error| StoreError::io("remove", &growing, error))?;
     Ok(outcome(End::Complete, updates, seconds))
+}
+
+/// Refuses a complete run of which something was removed: its file would make all of it anew, at the cost of the whole run, and
+/// what is still there may be somebody's results.
+fn whole(path: &Path, request: &Request) -> Result<(), StoreError> {
+    let scenario = &request.read.scenario;
+    let scattered = scenario.scatter.0.iter().any(|(_, scatter)| scatter.count.is_some_and(|count| count > 0));
+    let wanted = [TRAJECTORY, METRICS, EVENTS, OBSTACLES, KEYFRAMES, REPORT].into_iter().filter(|&name| match name {
+        TRAJECTORY => scenario.record.trajectory,
+        OBSTACLES => scattered || !scenario.obstacle.is_empty(),
+        _ => true,
+    });
+    let there = |name: &str| std::fs::metadata(path.join(name)).is_ok_and(|file| file.len() > 0 || name == KEYFRAMES);
+    let gone: Vec<&str> = wanted.filter(|name| !there(name)).collect();
+    let folder = path.display();
+    match gone.as_slice() {
+        [] => Ok(()),
+        [REPORT] => Err(StoreError::Refused(format!(
+            "the run in `{folder}` is complete, but its page {REPORT} is gone; `flockworks report {folder}` makes it anew"
+        ))),
+        gone => Err(StoreError::Refused(format!(
+            "the run in `{folder}` is complete, but {} is gone or empty; remove the folder to run anew, or choose another \
+             with --out",
+            gone.join(" and ")
+        ))),
+    }
 }
 
 fn new_manifest(request: &Request, identity: Json, seed: u64, schedule: &Schedule) -> Json {
@@ -420,11 +457,12 @@ where
 /// Makes the tables and the page of a run whose growing file is complete.
 fn finish(folder: &Folder, request: &Request, seed: u64, mut log: Log, records: &[Record]) -> Result<(), StoreError> {
     let scenario = &request.read.scenario;
-    let (frames, metrics, events) = with_types!(scenario, R, D => {
+    let (frames, metrics, events, drawn) = with_types!(scenario, R, D => {
         let world = build::world::<R, D>(scenario, seed, 1).map_err(StoreError::Refused)?;
         let metrics = crate::scenario::metrics_of::<D>(scenario).map_err(|wrong| StoreError::Refused(wrong.what))?;
         let all = tables::Tables::new(&world, scenario, &metrics);
-        (all.frames, all.metrics, all.events)
+        let drawn = world.obstacles().list();
+        (all.frames, all.metrics, all.events, (!drawn.is_empty()).then(|| obstacles::table(drawn, scenario)))
     });
     let notes = notes(request, seed);
     let tables = [
@@ -441,6 +479,9 @@ fn finish(folder: &Folder, request: &Request, seed: u64, mut log: Log, records: 
             let blocks = of_kind.iter().map(|record| log.read(record).map(Bytes::from));
             table::join(out, &headings, &notes, blocks).map(|_| ())
         })?;
+    }
+    if let Some((headings, columns)) = drawn {
+        table::write_table(folder, OBSTACLES, &headings, &columns, &notes)?;
     }
     let full = |record: &&Record| record.kind == kind::KEYFRAME || record.kind == kind::STATE;
     let states: Vec<&Record> = records.iter().filter(full).collect();

@@ -237,7 +237,9 @@ impl<R: Scalar + Send + 'static, const D: usize> Recorder<R, D> {
             records,
         };
         let (to, from) = sync_channel(WAITING);
-        let thread = std::thread::spawn(move || keeper.keep(&from));
+        let thread = std::thread::Builder::new()
+            .spawn(move || keeper.keep(&from))
+            .map_err(|error| StoreError::Io { doing: "begin a thread for the results".into(), error })?;
         Ok(Self { to, thread })
     }
     /// Hands something on; false where the recorder has ended, which [`Self::finish`] explains.

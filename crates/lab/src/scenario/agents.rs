@@ -413,8 +413,15 @@ fn parameter(
 ) -> Option<(String, Given)> {
     let key = entry.key.as_str();
     let Some(descriptor) = descriptors.iter().find(|d| d.name == key || d.alias == Some(key)) else {
+        let sets_of = |id: &str| models::find(id).is_some_and(|entry| !(entry.presets)().is_empty());
         let names = descriptors.iter().flat_map(|d| [Some(d.name), d.alias].into_iter().flatten());
+        let names = names.chain(sets_of(model).then_some(PRESET));
         let help = match nearest(key, names) {
+            // it has none, or it would have been taken
+            None if key == PRESET => {
+                let have = models::LIST.iter().map(|entry| entry.card.id).filter(|id| sets_of(id)).collect::<Vec<_>>();
+                format!("it has no sets of parameters; models that have some: {}", have.join(", "))
+            }
             Some(near) => format!("did you mean `{near}`?"),
             None => {
                 let verb = if terms::find(model).is_some() { "terms" } else { "models" };
@@ -589,7 +596,10 @@ model.control_boids = { preset = "field-mill", alignment = 2 }
         }
         let none = FILE.replace("control_boids", "control_snn").replace(", alignment = 2", "");
         let problems = build::read("file", &none, &[]).unwrap_err().to_string();
-        assert!(problems.contains("no parameter `preset`"), "{problems}");
+        assert!(problems.contains("it has no sets of parameters; models that have some: control_boids"), "{problems}");
+        let misspelt = FILE.replace("preset =", "presset =");
+        let problems = build::read("file", &misspelt, &[]).unwrap_err().to_string();
+        assert!(problems.contains("did you mean `preset`?"), "{problems}");
     }
 
     #[test]

@@ -21,12 +21,23 @@ pub struct Wrong {
     pub expected: String,
     /// What would help; may be empty.
     pub help: String,
+    /// Whether it is the key that is wrong there, and not its value.
+    pub of_key: bool,
 }
 
 impl Wrong {
     /// Something wrong at a path.
     pub fn new(path: impl Into<String>, what: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { path: path.into(), what: what.into(), expected: expected.into(), help: String::new() }
+        Self { path: path.into(), what: what.into(), expected: expected.into(), help: String::new(), of_key: false }
+    }
+    /// The same of the key, where it is wrong that it stands there.
+    #[must_use]
+    pub fn key(self) -> Self {
+        Self { of_key: true, ..self }
+    }
+    /// Where it is to be shown in a tree.
+    fn place(&self, tree: &Node) -> Span {
+        if self.of_key { tree.key_place(&self.path) } else { tree.place(&self.path) }
     }
     /// The same with a remedy.
     #[must_use]
@@ -82,10 +93,9 @@ pub fn read(name: &str, text: &str, sets: &[String]) -> Result<Read, Problems> {
         return Err(Problems::new(sources, desk.problems));
     }
     let mut tree = parse(&sources, file, &mut desk.problems);
-    let damaged = !desk.problems.is_empty();
     put(&mut tree, sets, &mut sources, &mut desk);
-    if damaged {
-        // what follows from text that could not be read would only confuse
+    if !desk.problems.is_empty() {
+        // what follows from text that could not be read, or put anywhere, would only confuse
         return Err(Problems::new(sources, desk.problems));
     }
     match resolved(&tree, &mut desk).filter(|_| desk.problems.is_empty()) {
@@ -119,7 +129,7 @@ pub(crate) fn possible(scenario: &Scenario, tree: &Node, desk: &mut Desk) -> boo
     let wrongs = check(scenario);
     let fine = wrongs.is_empty();
     for wrong in wrongs {
-        let span = tree.place(&wrong.path);
+        let span = wrong.place(tree);
         desk.problems.push(Problem { span, what: wrong.what, expected: wrong.expected, help: wrong.help });
     }
     fine
@@ -127,7 +137,7 @@ pub(crate) fn possible(scenario: &Scenario, tree: &Node, desk: &mut Desk) -> boo
 
 /// Puts values over those of a file, each written as `path=value`.
 pub(crate) fn put(tree: &mut Node, sets: &[String], sources: &mut Sources, desk: &mut Desk) {
-    let mut paths: Vec<String> = Vec::new();
+    let mut put: Vec<(&str, &str)> = Vec::new();
     for set in sets {
         let source = sources.add("--set", set);
         let span = Span { source, bytes: 0..set.len() };
@@ -136,14 +146,28 @@ pub(crate) fn put(tree: &mut Node, sets: &[String], sources: &mut Sources, desk:
             continue;
         };
         let path = path.trim();
-        if paths.iter().any(|other| other == path) {
-            desk.problem(&span, format!("`{path}` is set twice"), "set already", "");
+        let within = |path: &str, other: &str| path.strip_prefix(other).is_some_and(|rest| rest.starts_with('.'));
+        let clash = put.iter().find(|(other, _)| *other == path || within(path, other) || within(other, path));
+        if let Some((other, text)) = clash {
+            let (what, help) = if *other == path {
+                (format!("`{path}` is set twice"), format!("`--set {text}` sets it already; leave one of them out"))
+            } else {
+                let (part, whole) = if within(path, other) { (path, *other) } else { (*other, path) };
+                let what = format!("`{path}` contradicts `{other}`: `{part}` lies within `{whole}`");
+                (what, format!("`--set {text}` says it otherwise; put both into one value of `{whole}`"))
+            };
+            desk.problem(&span, what, "set already", help);
             continue;
         }
-        paths.push(path.to_owned());
+        put.push((path, set));
         let from = set.find('=').map_or(0, |at| at + 1);
         let from = from + set[from..].len() - set[from..].trim_start().len();
+        let before = desk.problems.len();
         let value = parse_value(sources, source, from, &mut desk.problems);
+        if desk.problems.len() > before {
+            // what would follow from a value that could not be read says nothing
+            continue;
+        }
         let node = Node { span: span.clone(), ..value };
         if let Some((name, there)) = tree.new_name(path) {
             let known = || there.iter().map(String::as_str);
@@ -223,6 +247,10 @@ pub fn schedule(scenario: &Scenario, quick: bool) -> Result<Schedule, Wrong> {
         Ok(steps.round() as u64)
     };
     let mut total = steps(scenario.time.duration, "time.duration")?;
+    if total == 0 && scenario.time.duration > 0.0 {
+        let what = format!("the run is shorter than a step of {step}");
+        return Err(Wrong::new("time.duration", what, "at least one step, or 0 to see how it begins"));
+    }
     if quick {
         total = total.div_ceil(10);
     }
@@ -243,7 +271,8 @@ pub fn schedule(scenario: &Scenario, quick: bool) -> Result<Schedule, Wrong> {
     Ok(Schedule { step, steps: total, record, record_from: record_from.min(total), measure })
 }
 
-fn short(value: f64) -> String {
+/// A number with nine decimals at most.
+pub(super) fn short(value: f64) -> String {
     let text = format!("{value:.9}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
@@ -291,6 +320,20 @@ macro_rules! with_types {
     }};
 }
 
+/// Intervals after which nothing is left to be kept or measured.
+fn longer_than_the_run(scenario: &Scenario) -> Vec<Wrong> {
+    let duration = scenario.time.duration;
+    // who asks for no step at all wants to see how it begins
+    let longer = |(path, interval): (&str, Option<f64>)| {
+        let interval = interval.filter(|&interval| interval > duration && duration > 0.0)?;
+        let what = format!("`{path}` is {interval}, longer than the run, which ends at {duration}");
+        let help = "a shorter interval, or a longer `time.duration`";
+        Some(Wrong::new(path, what, format!("at most {duration}")).help(help).key())
+    };
+    let intervals = [("record.interval", scenario.record.interval), ("measure.interval", scenario.measure.interval)];
+    intervals.into_iter().filter_map(longer).collect()
+}
+
 /// Everything about a scenario that stands in the way of a world.
 fn check(scenario: &Scenario) -> Vec<Wrong> {
     let mut wrongs = Vec::new();
@@ -301,7 +344,7 @@ fn check(scenario: &Scenario) -> Vec<Wrong> {
     for (kind, name) in groups.chain(scenario.scatter.0.iter().map(|(name, _)| ("scatter", name))) {
         if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c)) {
             let what = format!("`{name}` cannot be a name");
-            wrongs.push(Wrong::new(kind, what, "names have letters, digits, `_` and `-`"));
+            wrongs.push(Wrong::new(format!("{kind}.{name}"), what, "names have letters, digits, `_` and `-`").key());
         }
     }
     if let Driver::Asynchronous(clocks) = &scenario.time.driver {
@@ -334,8 +377,9 @@ fn check(scenario: &Scenario) -> Vec<Wrong> {
             }
         }
     }
-    if let Err(wrong) = schedule(scenario, false) {
-        wrongs.push(wrong);
+    match schedule(scenario, false) {
+        Ok(_) => wrongs.extend(longer_than_the_run(scenario)),
+        Err(wrong) => wrongs.push(wrong),
     }
     let measured = match scenario.space.dimensions {
         1 => super::metrics_of::<1>(scenario).err(),
@@ -347,13 +391,49 @@ fn check(scenario: &Scenario) -> Vec<Wrong> {
         return wrongs;
     }
     with_types!(scenario, R, D => match plan::<R, D>(scenario, scenario.seed.unwrap_or(0), 1) {
-        Ok(plan) => swarm::World::new(plan).err().map(|error| of_world(error, scenario)).into_iter().collect(),
+        Ok(plan) => match swarm::World::new(plan) {
+            Ok(world) => super::start::in_the_way(scenario, &world),
+            Err(error) => vec![of_world(error, scenario)],
+        },
         Err(wrongs) => wrongs,
     })
 }
 
 /// Name that stands for everyone together in tables.
 pub const WHOLE_GROUP: &str = "all";
+
+/// Where in a group the engine's problem with it lies, and whether at the key itself.
+fn place_in_group(problem: &str, model: &str) -> (String, bool) {
+    let own = ["conduct", "taxis", "pace", "adapt", "decides", "obstacles"];
+    // the name that stands in quotes behind a word
+    let named = |word: &str| problem.split_once(word).and_then(|(_, rest)| rest.split_once('`')).map(|(name, _)| name);
+    if let Some(key) = own.into_iter().find(|key| problem.starts_with(key)) {
+        (key.to_owned(), false)
+    } else if let Some(set) = named("named set `") {
+        (format!("select.{set}"), true)
+    } else if let Some(set) = problem.starts_with("set `").then(|| named("set `")).flatten() {
+        (format!("select.{set}"), false)
+    } else if problem.contains("named set") {
+        ("select".to_owned(), false)
+    } else if problem.contains("scanner") || problem.contains("sensing") || problem.starts_with("field of view") {
+        ("sensing".to_owned(), false)
+    } else if let Some(column) = named("no column `") {
+        (format!("start.state.{column}"), true)
+    } else if problem.contains("column") {
+        ("start.state".to_owned(), false)
+    } else if problem.starts_with("its step is") {
+        (format!("model.{model}.{TIME_STEP}"), false)
+    } else {
+        let bodies = [
+            ("length", "physics.length"),
+            ("the body radius", "physics.radius"),
+            ("noise", "physics.noise"),
+            ("a vertical turn rate", "physics.mobility.turn_limited.vertical"),
+        ];
+        let place = bodies.into_iter().find(|(word, _)| problem.starts_with(word)).map_or("", |(_, place)| place);
+        (place.to_owned(), false)
+    }
+}
 
 /// What the engine refuses, at its place in the file.
 fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
@@ -372,22 +452,9 @@ fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
             Wrong::new(path, error.to_string(), "not possible together")
         }
         WorldError::Group { group, problem } => {
-            let own = ["conduct", "taxis", "pace", "adapt", "decides", "obstacles"]
-                .into_iter()
-                .find(|key| problem.starts_with(key));
-            let place = if let Some(key) = own {
-                key
-            } else if problem.contains("scanner") || problem.starts_with("sensing") {
-                "sensing"
-            } else if problem.starts_with("set `") || problem.contains("named set") {
-                "select"
-            } else if problem.contains("column") {
-                "start.state"
-            } else {
-                ""
-            };
+            let (place, of_key) = place_in_group(problem, model(group));
             let path = format!("group.{group}.{place}");
-            Wrong::new(path.trim_end_matches('.'), problem.clone(), "not possible")
+            Wrong { of_key, ..Wrong::new(path.trim_end_matches('.'), problem.clone(), "not possible") }
         }
         WorldError::Dimension { .. } => Wrong::new("space.dimensions", error.to_string(), "not for this model"),
         WorldError::Model { .. } => Wrong::new("group", error.to_string(), ""),
@@ -400,6 +467,10 @@ fn of_world(error: WorldError, scenario: &Scenario) -> Wrong {
                 "stimulus"
             } else if problem.contains("obstacle") {
                 "obstacle"
+            } else if problem.starts_with("the delay of readings") {
+                "time.driver.asynchronous.delay"
+            } else if problem.starts_with("the asynchronous driver") || problem.starts_with("the jitter") {
+                "time.driver"
             } else {
                 ""
             };
@@ -554,7 +625,7 @@ where
         let known = group.model.descriptors().iter().any(|d| d.name == TIME_STEP);
         if values.contains_key(TIME_STEP) {
             let what = "the step is given here and as time.step";
-            return Err(Wrong::new(format!("model.{id}.{TIME_STEP}"), what, "leave one of them out"));
+            return Err(Wrong::new(format!("model.{id}.{TIME_STEP}"), what, "leave one of them out").key());
         }
         if known {
             values.insert(TIME_STEP.to_owned(), step.into());

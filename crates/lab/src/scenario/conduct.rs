@@ -175,7 +175,7 @@ conduct = { hunt = { prey = ["doves"], within = 40, speed = 2 }, explore = { wit
         assert!(dead > 0, "nobody was caught");
         let schedule = build::schedule(&read.scenario, false).unwrap();
         let text = describe::methods(&read.scenario, &schedule, 3).join(" ");
-        for words in ["`hawks`", "flee and rest", "squared speed", "Mates within 5"] {
+        for words in ["`hawks`", "flee and rest", "squared speed", "mate within 5"] {
             assert!(text.contains(words), "{words} is missing in: {text}");
         }
     }

@@ -1,6 +1,6 @@
 //! A scenario in the words of a methods section.
 
-use super::agents::{Given, default_in_files, unit_in_files};
+use super::agents::{Distribution, Given, default_in_files, unit_in_files};
 use super::build::Schedule;
 use super::sensing::{Detection, Occlusion};
 use super::start::{Heading, Place};
@@ -21,6 +21,44 @@ fn number(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
+/// A word with its number, in the singular where it is one: `1 agent`, `2 agents`.
+fn counted(count: usize, one: &str) -> String {
+    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
+}
+
+/// An amount of time. Some scenarios count in steps, which is a word and no symbol.
+fn span(value: f64, time: &str) -> String {
+    match time {
+        "steps" if value == 1.0 => "1 step".to_owned(),
+        _ => format!("{} {time}", number(value)),
+    }
+}
+
+/// How often: `every 2 s`, `every step`.
+fn every(value: f64, time: &str) -> String {
+    if value == 1.0 && time == "steps" { "every step".to_owned() } else { format!("every {}", span(value, time)) }
+}
+
+/// What is drawn for each member, in words.
+fn drawn(distribution: &Distribution, unit: &str) -> String {
+    match distribution {
+        Distribution::Normal(v) => format!(
+            "from a normal distribution with a mean of {}{unit} and a standard deviation of {}{unit}",
+            number(v[0]),
+            number(v[1])
+        ),
+        Distribution::Truncated(v) => format!(
+            "from a normal distribution with a mean of {}{unit} and a standard deviation of {}{unit}, cut off at {} and {}{unit}",
+            number(v[0]),
+            number(v[1]),
+            number(v[2]),
+            number(v[3])
+        ),
+        Distribution::Uniform(v) => format!("uniformly between {} and {}{unit}", number(v[0]), number(v[1])),
+        other => format!("from `{}`{unit}", other.write().json()),
+    }
+}
+
 fn listed(parts: &[String]) -> String {
     match parts {
         [] => String::new(),
@@ -32,23 +70,30 @@ fn listed(parts: &[String]) -> String {
 fn world(scenario: &Scenario, schedule: &Schedule) -> String {
     let (length, time) = (&scenario.units.length, &scenario.units.time);
     let dimensions = scenario.space.dimensions;
-    let axes = ["x", "y", "z"];
     let axis = |a: usize| {
         let size =
-            scenario.space.size.as_ref().and_then(|size| size.of(a)).map(|s| format!(" of {} {length}", number(s)));
+            scenario.space.size.as_ref().and_then(|size| size.of(a)).map(|s| format!(" {} {length} long", number(s)));
         let size = size.unwrap_or_default();
         match scenario.space.edges.of(a) {
-            Some(Edges::Walls) => format!("an axis {}{size} between solid walls", axes[a]),
-            Some(Edges::Periodic) => format!("a periodic axis {}{size}", axes[a]),
-            Some(Edges::Open) | None => format!("an open axis {}", axes[a]),
+            Some(Edges::Walls) => format!("{size} between solid walls"),
+            Some(Edges::Periodic) => format!("{size} and periodic"),
+            Some(Edges::Open) | None => " open".to_owned(),
         }
     };
-    let parts: Vec<String> = (0..dimensions).map(axis).collect();
-    let mut text =
-        format!("The space had {dimensions} dimension{}: {}.", if dimensions == 1 { "" } else { "s" }, listed(&parts));
+    // axes that are alike are told once
+    let all: Vec<String> = (0..dimensions).map(axis).collect();
+    let axes = match all.as_slice() {
+        [one] => format!(", x{one}"),
+        [first, rest @ ..] if rest.iter().all(|other| other == first) => format!(", each{first}"),
+        all => {
+            let parts: Vec<String> =
+                ["x", "y", "z"].iter().zip(all).map(|(name, axis)| format!("{name}{axis}")).collect();
+            format!(": {}", listed(&parts))
+        }
+    };
+    let mut text = format!("The space had {}{axes}.", counted(dimensions, "dimension"));
     if !scenario.obstacle.is_empty() {
-        let count = scenario.obstacle.len();
-        text += &format!(" It held {count} obstacle{}.", if count == 1 { "" } else { "s" });
+        text += &format!(" It held {}.", counted(scenario.obstacle.len(), "obstacle"));
     }
     for (name, scatter) in &scenario.scatter.0 {
         let many = match (scatter.count, scatter.percent) {
@@ -63,12 +108,14 @@ fn world(scenario: &Scenario, schedule: &Schedule) -> String {
     if let Some(food) = &scenario.food {
         let count = food.count.or(food.places.as_ref().map(Vec::len)).unwrap_or(0);
         text += &format!(
-            " {count} items of food were there; the nearest living agent within {} {length} consumed one.",
+            " There {} {} of food; an item was consumed by the nearest living agent within {} {length}.",
+            if count == 1 { "was" } else { "were" },
+            counted(count, "item"),
             number(food.within)
         );
         if let Some(sharing) = &food.sharing {
             text += &format!(
-                " Mates within {} {length} of it got {} of what it got, each.",
+                " Each mate within {} {length} of it got {} times what it got.",
                 number(sharing.within),
                 number(sharing.share)
             );
@@ -76,7 +123,9 @@ fn world(scenario: &Scenario, schedule: &Schedule) -> String {
         if let Some(living) = food.metabolism.as_ref().filter(|living| living.motion > 0.0) {
             text += &format!(" Motion cost {} times the squared speed per {time}", number(living.motion));
             text += &match &living.drafting {
-                Some(drafting) => format!(", less {} of it for who drafted behind a mate.", number(drafting.saving)),
+                Some(drafting) => {
+                    format!(", less {} of it for those who drafted behind a mate.", number(drafting.saving))
+                }
                 None => ".".to_owned(),
             };
         }
@@ -97,8 +146,8 @@ fn world(scenario: &Scenario, schedule: &Schedule) -> String {
             Order::RoundRobin => "agents moved one after the other, by number".to_owned(),
         },
         Driver::Asynchronous(a) => format!(
-            "each agent decided on its own clock, every {} {time}{}; bodies moved in ticks beneath",
-            number(a.period),
+            "each agent decided on its own clock, {}{}; bodies moved in every step",
+            every(a.period, time),
             match a.clock {
                 Clock::Regular if a.jitter > 0.0 => format!(" give or take {} %", number(100.0 * a.jitter)),
                 Clock::Regular => String::new(),
@@ -107,12 +156,13 @@ fn world(scenario: &Scenario, schedule: &Schedule) -> String {
         ),
     };
     let duration = schedule.step * schedule.steps as f64;
-    text + &format!(
-        " {} {time} were simulated in {} steps of {} {time}; {order}.",
-        number(duration),
-        schedule.steps,
-        number(schedule.step)
-    )
+    // where time is counted in steps, that says it all
+    let in_steps = if time == "steps" && schedule.step == 1.0 {
+        String::new()
+    } else {
+        format!(" in {} of {}", counted(schedule.steps as usize, "step"), span(schedule.step, time))
+    };
+    text + &format!(" The simulation covered {}{in_steps}; {order}.", span(duration, time))
 }
 
 fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
@@ -120,8 +170,8 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
     let card = swarm::models::find(&group.model.id).map(|entry| entry.card);
     let (title, about, reference) = card.map_or(("", "", ""), |card| (card.title, card.about, card.reference));
     let mut text = format!(
-        "The group `{name}` had {} agents of the model `{}` ({title}): {about} Reference: {}.",
-        group.count,
+        "The group `{name}` had {} of the model `{}` ({title}). {about} Reference: {}.",
+        counted(group.count, "agent"),
         group.model.id,
         reference.trim_end_matches('.')
     );
@@ -134,7 +184,7 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
         match given {
             Given::Value(value) if *value == default_in_files(descriptor) => {}
             Given::Value(Value::List(terms)) if descriptor.takes == Kind::Terms => {
-                changed.push(format!("{parameter}: {}", listed(&terms.iter().map(term).collect::<Vec<_>>())));
+                changed.push(format!("`{parameter}`: {}", listed(&terms.iter().map(term).collect::<Vec<_>>())));
             }
             Given::Value(value) => {
                 let text = value.to_string();
@@ -143,10 +193,10 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
                 } else {
                     format!("{text}{unit}")
                 };
-                changed.push(format!("{parameter} = {text}"));
+                changed.push(format!("`{parameter}` = {text}"));
             }
             Given::Drawn(distribution) => {
-                changed.push(format!("{parameter} drawn for each member from {}{unit}", distribution.write().json()));
+                changed.push(format!("`{parameter}` drawn for each member {}", drawn(distribution, &unit)));
             }
         }
     }
@@ -158,10 +208,12 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
     let default = Start::default();
     let start = group.start.as_ref().unwrap_or(&default);
     text += &match &start.place {
-        Place::Anywhere(_) => " They began anywhere in the space".to_owned(),
+        Place::Anywhere(_) => " They began at random places in the space".to_owned(),
         Place::Box(_) => " They began at random places in a box".to_owned(),
         Place::Ball(ball) => format!(" They began at random places within {} {length} of a point", number(ball.radius)),
-        Place::Lattice(lattice) => format!(" They began on a square lattice {} {length} wide", number(lattice.spacing)),
+        Place::Lattice(lattice) => {
+            format!(" They began on a square lattice with a spacing of {} {length}", number(lattice.spacing))
+        }
         Place::Points(_) => " They began at given points".to_owned(),
     };
     if start.spacing > 0.0 {
@@ -169,13 +221,13 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
     }
     text += &match (&start.velocities, &start.heading) {
         (Some(_), _) => ", with given velocities.".to_owned(),
-        (None, Heading::Random(_)) => ", each heading its own way.".to_owned(),
-        (None, Heading::Along(_)) => ", all heading the same, given way.".to_owned(),
+        (None, Heading::Random(_)) => ", each with a random heading.".to_owned(),
+        (None, Heading::Along(_)) => ", all heading in the same, given direction.".to_owned(),
         (None, Heading::About(about)) => {
-            format!(", heading a given way, with a standard deviation of {} degrees.", number(about.deviation))
+            format!(", heading in a given direction, with a standard deviation of {} degrees.", number(about.deviation))
         }
         (None, Heading::Common(common)) => {
-            format!(", heading one way drawn for all, give or take {} degrees.", number(common.spread))
+            format!(", heading in one direction drawn for all, give or take {} degrees.", number(common.spread))
         }
     };
     text += &sensing(group, scenario);
@@ -186,7 +238,7 @@ fn of_group(name: &str, group: &Group, scenario: &Scenario) -> String {
         let states: Vec<String> = conduct.states().into_iter().map(str::to_owned).collect();
         if !states.is_empty() {
             text += &format!(
-                " A state machine stood over this law: in the states {} it gave way to what these say.",
+                " A state machine stood over this law: in the states {} it gave way to them.",
                 listed(&states)
             );
         }
@@ -358,17 +410,17 @@ fn sensing(group: &Group, scenario: &Scenario) -> String {
         Some(Sensing::Laser(laser)) => {
             let detection = match laser.detection {
                 Detection::SensorBased(_) => "every bright reading was an input",
-                Detection::MemberBased(_) => "one input for each segment with the profile of a body",
+                Detection::MemberBased(_) => "there was one input for each segment with the profile of a body",
                 Detection::MemberExtrapolated(_) => {
                     "every reading of a segment with the profile of a body was an input"
                 }
-                Detection::Clustered(_) => "one input for each bright cluster about as wide as a body",
+                Detection::Clustered(_) => "there was one input for each bright cluster about as wide as a body",
             };
             format!(
-                " They sensed by a laser of {} rays and {} m range{}; {detection}{}.",
+                " Each sensed the others with a laser scanner of {} rays and a range of {} m{}; {detection}{}.",
                 laser.last_step - laser.first_step + 1,
                 number(laser.longest_range),
-                if laser.noise.is_some() { " with noisy readings" } else { "" },
+                if laser.noise.is_some() { ", with noisy readings" } else { "" },
                 if laser.association.is_some() { ", associated over time" } else { "" }
             )
         }
@@ -377,10 +429,10 @@ fn sensing(group: &Group, scenario: &Scenario) -> String {
 
 fn kept(scenario: &Scenario, schedule: &Schedule, seed: u64) -> String {
     let time = &scenario.units.time;
-    let of_steps = |steps: u64| number(steps as f64 * schedule.step);
-    let mut text = format!("Metrics were computed every {} {time}", of_steps(schedule.measure));
+    let of_steps = |steps: u64| every(steps as f64 * schedule.step, time);
+    let mut text = format!("Metrics were computed {}", of_steps(schedule.measure));
     if scenario.record.trajectory {
-        text += &format!(", and positions and velocities kept every {} {time}", of_steps(schedule.record));
+        text += &format!(", and positions and velocities were kept {}", of_steps(schedule.record));
     }
     text + &format!(
         ". Random draws were counter-based (Philox4x32-10) with the seed {seed}; numbers had {} bits. The same file and seed give the same results to the last bit, on any number of threads.",
@@ -389,4 +441,20 @@ fn kept(scenario: &Scenario, schedule: &Schedule, seed: u64) -> String {
             _ => 64,
         }
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_is_singular_and_steps_are_words() {
+        assert_eq!([1, 2].map(|count| counted(count, "agent")), ["1 agent", "2 agents"]);
+        assert_eq!(
+            [every(1.0, "steps"), every(4.0, "steps"), every(1.0, "s")],
+            ["every step", "every 4 steps", "every 1 s"]
+        );
+        assert_eq!([span(1.0, "steps"), span(0.5, "s")], ["1 step", "0.5 s"]);
+        assert_eq!(drawn(&Distribution::Uniform(vec![1.0, 2.0]), " m"), "uniformly between 1 and 2 m");
+    }
 }

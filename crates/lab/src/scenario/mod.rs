@@ -16,6 +16,8 @@ pub mod surroundings;
 
 use crate::file::{Named, PerAxis};
 use crate::{form, tagged, words};
+use measure::MetricCard;
+use space::spelling::nearest;
 
 pub use agents::{Model, PerMember};
 pub use beside::{Adapt, Decides, Pace, Stimulus, Taxis};
@@ -297,6 +299,24 @@ form! {
     }
 }
 
+/// What may have been meant by a parameter that none of the measured metrics has.
+fn other_parameter(name: &str, measured: &[&MetricCard]) -> String {
+    let mut known: Vec<&str> =
+        measured.iter().flat_map(|card| card.parameters).map(|parameter| parameter.name).collect();
+    known.sort_unstable();
+    known.dedup();
+    if let Some(near) = nearest(name, known.iter().copied()) {
+        return format!("did you mean `{near}`?");
+    }
+    let has = |card: &&&MetricCard| card.parameters.iter().any(|parameter| parameter.name == name);
+    let of: Vec<&str> = measure::metrics::LIST.iter().filter(has).map(|card| card.id).collect();
+    match (of.is_empty(), known.is_empty()) {
+        (false, _) => format!("it is a parameter of {}, not measured here", of.join(" and ")),
+        (true, false) => format!("those that are measured take {}", known.join(", ")),
+        (true, true) => "none of those that are measured takes any".to_owned(),
+    }
+}
+
 /// The metrics of a scenario, with their parameters.
 ///
 /// # Errors
@@ -329,11 +349,11 @@ pub fn metrics_of<const D: usize>(scenario: &Scenario) -> Result<Vec<Box<dyn mea
             }
         }
         if !used {
-            let known = metrics.iter().flat_map(|metric| metric.card().parameters.iter().map(|p| p.name));
-            let near = space::spelling::nearest(name, known);
-            let help = near.map_or_else(String::new, |near| format!("did you mean `{near}`?"));
             let what = format!("no measured metric has a parameter `{name}`");
-            return Err(Wrong::new(format!("measure.parameters.{name}"), what, "not a parameter").help(&help));
+            let cards: Vec<_> = metrics.iter().map(|metric| metric.card()).collect();
+            return Err(Wrong::new(format!("measure.parameters.{name}"), what, "not a parameter")
+                .help(&other_parameter(name, &cards))
+                .key());
         }
     }
     Ok(metrics)

@@ -61,7 +61,7 @@ tagged! {
         /// Those whose Voronoi cell touches the agent's own.
         voronoi => Voronoi(Nothing);
         /// The so many nearest.
-        k_nearest in "1", Range::NonNegative => KNearest(usize);
+        k_nearest in "1", Range::Positive => KNearest(usize);
         /// Those in a box.
         bounding_box => BoundingBox(Corners);
         /// Those in a cone about the heading, by its full opening.

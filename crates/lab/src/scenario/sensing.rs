@@ -257,25 +257,7 @@ tagged! {
 impl Sensing {
     /// What a laser cannot be, with the key it concerns.
     pub(super) fn problem(&self) -> Option<(&'static str, String)> {
-        let Self::Laser(laser) = self else { return None };
-        if laser.first_step > laser.last_step {
-            let what = format!("the first step ({}) lies after the last ({})", laser.first_step, laser.last_step);
-            return Some(("first_step", what));
-        }
-        if laser.last_step - laser.first_step >= laser.steps_per_turn {
-            return Some((
-                "last_step",
-                format!("the rays would go round more than once ({} a turn)", laser.steps_per_turn),
-            ));
-        }
-        if laser.shortest_range >= laser.longest_range {
-            let (shortest, longest) = (laser.shortest_range, laser.longest_range);
-            return Some((
-                "shortest_range",
-                format!("the shortest range ({shortest}) must be below the longest ({longest})"),
-            ));
-        }
-        None
+        if let Self::Laser(laser) = self { laser.problem() } else { None }
     }
     pub(super) fn resolved<R: Scalar>(&self) -> engine::Sensing<R> {
         match self {
@@ -302,6 +284,49 @@ impl Sensing {
 }
 
 impl Laser {
+    /// What it cannot be, with the key it concerns.
+    fn problem(&self) -> Option<(&'static str, String)> {
+        let Self { first_step, last_step, front_step, steps_per_turn, shortest_range, longest_range, .. } = *self;
+        if first_step > last_step {
+            return Some(("first_step", format!("the first step ({first_step}) lies after the last ({last_step})")));
+        }
+        if last_step - first_step >= steps_per_turn {
+            return Some(("last_step", format!("the rays would go round more than once ({steps_per_turn} a turn)")));
+        }
+        if front_step >= steps_per_turn {
+            let what = format!(
+                "the step along the heading ({front_step}) is none of the {steps_per_turn} of a turn, which count from 0"
+            );
+            return Some(("front_step", what));
+        }
+        if shortest_range >= longest_range {
+            let what = format!("the shortest range ({shortest_range}) must be below the longest ({longest_range})");
+            return Some(("shortest_range", what));
+        }
+        let rays = (last_step - first_step) as usize + 1;
+        let narrow = |key, least: f64, greatest: Option<f64>| {
+            let greatest = greatest.filter(|&greatest| least > greatest)?;
+            Some((key, format!("the least width ({least}) is above the greatest ({greatest}): nobody would be found")))
+        };
+        let few = |key, least: usize| {
+            let what = || format!("the {rays} rays never give {least} readings: nobody would be found");
+            (least > rays).then(|| (key, what()))
+        };
+        match &self.detection {
+            Detection::SensorBased(_) => None,
+            Detection::MemberBased(profiles) => {
+                narrow("detection.member_based.least_width", profiles.least_width, profiles.greatest_width)
+                    .or_else(|| few("detection.member_based.least_readings", profiles.least_readings))
+            }
+            Detection::MemberExtrapolated(profiles) => {
+                narrow("detection.member_extrapolated.least_width", profiles.least_width, profiles.greatest_width)
+                    .or_else(|| few("detection.member_extrapolated.least_readings", profiles.least_readings))
+            }
+            Detection::Clustered(clusters) => {
+                narrow("detection.clustered.least_width", clusters.least_width, Some(clusters.greatest_width))
+            }
+        }
+    }
     fn robot<R: Scalar>(&self) -> Robot<R> {
         let scanner = Scanner {
             steps_per_turn: self.steps_per_turn,

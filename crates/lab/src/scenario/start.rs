@@ -6,7 +6,9 @@
 //! offsets from it by U(seed, init, 2^40 + 1 + id, 0 and 1).
 
 use super::agents::PerMember;
-use super::build::{Wrong, vector};
+use super::build::{Wrong, short, vector};
+use super::{Group, Scenario};
+use crate::file::tree::written;
 use crate::file::{Named, Nothing};
 use crate::{form, tagged};
 use space::obstacles::Obstacles;
@@ -14,6 +16,8 @@ use space::random::{Purpose, normal, uniform, unit_vector};
 use space::{Real, Space, Vector};
 use std::collections::BTreeMap;
 use swarm::engine as plan;
+use swarm::parameters::Scalar;
+use swarm::physics::Contact;
 
 form! {
     /// How a group begins.
@@ -109,8 +113,9 @@ pub(super) fn inside<R: Real, const D: usize>(
         if let Some(side) = space.side(a)
             && !(place[a] >= R::ZERO && place[a] <= side)
         {
-            let what = format!("{} lies outside the space, which goes from 0 to {side} on axis {a}", place[a]);
-            return Err(Wrong::new(path, what, "a place inside the space"));
+            let (found, side) = (written(place[a].to_f64()), written(side.to_f64()));
+            let what = format!("{found} lies outside the space, which goes from 0 to {side} on axis {a}");
+            return Err(Wrong::new(format!("{path}.{a}"), what, "a place inside the space"));
         }
     }
     Ok(place)
@@ -428,12 +433,8 @@ fn at_path<R: Real, const D: usize>(numbers: &[f64], path: &str) -> Result<Vecto
 impl<R: Real, const D: usize> Surroundings<'_, R, D> {
     /// Whether a body here touches neither wall nor obstacle.
     fn clear(&self, place: Vector<R, D>, radius: R) -> bool {
-        for a in 0..D {
-            if let space::Edge::Walls(length) = self.space.edges[a]
-                && (place[a] < radius || place[a] > length - radius)
-            {
-                return false;
-            }
+        if (0..D).any(|a| beyond_wall(self.space, place, radius, a)) {
+            return false;
         }
         let mut free = true;
         self.obstacles.near(place, radius.most(R::TINY), |_, _, _| free = false);
@@ -441,16 +442,118 @@ impl<R: Real, const D: usize> Surroundings<'_, R, D> {
     }
 }
 
+/// What is left of a radius where bodies touch: places are written in few digits, and touching is not overlapping.
+const TOUCHING: f64 = 1.0 - 1e-5;
+
+/// Bodies that begin at given places where they cannot be: in a wall, in an obstacle, in each other. Places that are drawn keep
+/// clear of walls and obstacles by themselves.
+pub(super) fn in_the_way<R: Scalar, const D: usize>(scenario: &Scenario, world: &swarm::World<R, D>) -> Vec<Wrong> {
+    // in a lattice or at points
+    let given = |group: &Group| match group.start.as_ref().filter(|start| start.jitter == 0.0)?.place {
+        Place::Points(_) => Some("points"),
+        Place::Lattice(_) => Some("lattice"),
+        _ => None,
+    };
+    // groups that begin at given places and have bodies, each with its number
+    let groups: Vec<(usize, &plan::Group<R, D>)> = (world.groups().iter().enumerate())
+        .filter(|(g, body)| body.contact() != Contact::Free && given(&scenario.group.0[*g].1).is_some())
+        .collect();
+    if groups.is_empty() {
+        return Vec::new();
+    }
+    let frame = world.frame();
+    let mut places = vec![Vector::ZERO; frame.columns.len()];
+    for row in 0..places.len() {
+        places[frame.columns.id[row] as usize] = frame.columns.position(row);
+    }
+    let members = |g: usize| {
+        let range = &frame.groups[g];
+        &places[range.first as usize..(range.first + range.count) as usize]
+    };
+    let mut wrongs = Vec::new();
+    let mut wrong = |g: usize, member: usize, what: String| {
+        let (name, group) = &scenario.group.0[g];
+        let place = format!("group.{name}.start.place");
+        // a lattice is one thing in the file, and wrong once
+        let lattice = given(group) == Some("lattice");
+        let path = if lattice { format!("{place}.lattice") } else { format!("{place}.points.{member}") };
+        if !lattice || wrongs.iter().all(|other: &Wrong| other.path != path) {
+            wrongs.push(Wrong::new(path, what, "no room for a body"));
+        }
+    };
+    for &(g, body) in &groups {
+        let radius = body.radius() * R::of(TOUCHING);
+        for (k, &place) in members(g).iter().enumerate() {
+            if let Some(axis) = (0..D).find(|&a| beyond_wall(frame.space, place, radius, a)) {
+                let what = format!("a body of radius {} would reach into a wall here, on axis {axis}", body.radius());
+                wrong(g, k, what);
+            }
+            let mut met = None;
+            world.obstacles().near(place, radius.most(R::TINY), |index, _, _| met = met.or(Some(index as usize)));
+            if let Some(index) = met {
+                let obstacle = if index < scenario.obstacle.len() {
+                    format!("`obstacle.{index}`")
+                } else {
+                    "a scattered obstacle".to_owned()
+                };
+                wrong(g, k, format!("a body of radius {} would reach into {obstacle} here", body.radius()));
+            }
+        }
+    }
+    // who is reflected or clamped passes through other bodies
+    let meets = |body: &plan::Group<R, D>| {
+        body.meets() && body.radius() > R::ZERO && matches!(body.contact(), Contact::Refuse | Contact::Slide)
+    };
+    for (i, &(g, one)) in groups.iter().enumerate() {
+        for &(h, other) in groups[i..].iter().filter(|(_, other)| meets(one) && meets(other)) {
+            let apart = one.radius() + other.radius();
+            let mut room = Apart::new(frame.space, apart * R::of(TOUCHING));
+            if g != h {
+                members(g).iter().for_each(|&place| room.add(place));
+            }
+            for (k, &place) in members(h).iter().enumerate() {
+                if let Some(number) = room.nearer(place) {
+                    let near = frame.space.offset(place, members(g)[number]).length();
+                    let (name, near) = (&scenario.group.0[g].0, short(near.to_f64()));
+                    let whose =
+                        if g == h { format!("member {number}") } else { format!("member {number} of `{name}`") };
+                    wrong(
+                        h,
+                        k,
+                        format!(
+                            "the body here would overlap that of {whose}: {near} apart, where they touch at {apart}"
+                        ),
+                    );
+                }
+                if g == h {
+                    room.add(place);
+                }
+            }
+        }
+    }
+    wrongs
+}
+
+/// Whether a body reaches beyond a wall of an axis.
+fn beyond_wall<R: Real, const D: usize>(space: &Space<R, D>, place: Vector<R, D>, radius: R, axis: usize) -> bool {
+    match space.edges[axis] {
+        space::Edge::Walls(length) => place[axis] < radius || place[axis] > length - radius,
+        _ => false,
+    }
+}
+
 /// Places that keep a distance from each other, found again by cells of that size.
 pub(super) struct Apart<'a, R, const D: usize> {
     space: &'a Space<R, D>,
     distance: R,
-    cells: std::collections::HashMap<[i64; D], Vec<Vector<R, D>>>,
+    /// Places with their numbers, in the order in which they were added.
+    cells: std::collections::HashMap<[i64; D], Vec<(usize, Vector<R, D>)>>,
+    count: usize,
 }
 
 impl<'a, R: Real, const D: usize> Apart<'a, R, D> {
     pub(super) fn new(space: &'a Space<R, D>, distance: R) -> Self {
-        Self { space, distance, cells: std::collections::HashMap::new() }
+        Self { space, distance, cells: std::collections::HashMap::new(), count: 0 }
     }
     /// How many cells a periodic axis has, and how wide they are on any axis.
     fn axis(&self, a: usize) -> (Option<i64>, f64) {
@@ -471,25 +574,29 @@ impl<'a, R: Real, const D: usize> Apart<'a, R, D> {
         })
     }
     pub(super) fn admits(&self, place: Vector<R, D>) -> bool {
+        self.nearer(place).is_none()
+    }
+    /// Number of a place that is nearer than the distance.
+    fn nearer(&self, place: Vector<R, D>) -> Option<usize> {
         if self.distance <= R::ZERO {
-            return true;
+            return None;
         }
         let here = self.cell(place);
         let near = 3usize.pow(D as u32);
-        !(0..near).any(|k| {
+        let limit = self.distance * self.distance;
+        (0..near).find_map(|k| {
             let there = core::array::from_fn(|a| {
                 let cell = here[a] + (k / 3usize.pow(a as u32) % 3) as i64 - 1;
                 self.axis(a).0.map_or(cell, |cells| cell.rem_euclid(cells))
             });
-            let limit = self.distance * self.distance;
-            self.cells
-                .get(&there)
-                .is_some_and(|cell| cell.iter().any(|&other| self.space.offset(place, other).length_squared() < limit))
+            let close = |other: Vector<R, D>| self.space.offset(place, other).length_squared() < limit;
+            self.cells.get(&there)?.iter().find(|(_, other)| close(*other)).map(|&(number, _)| number)
         })
     }
     pub(super) fn add(&mut self, place: Vector<R, D>) {
         if self.distance > R::ZERO {
-            self.cells.entry(self.cell(place)).or_default().push(place);
+            self.cells.entry(self.cell(place)).or_default().push((self.count, place));
+            self.count += 1;
         }
     }
 }
