@@ -2,7 +2,9 @@
 
 use super::number::{bytes, quantity};
 use super::palette::{self, SERIES};
-use super::{Figure, Lines, Means, Page, Replay, Scenes, Stage, Table, chart, drawing, escape, map, replay, scene};
+use super::{
+    Border, Figure, Lines, Means, Page, Replay, Scenes, Stage, Table, chart, drawing, escape, map, replay, scene,
+};
 use core::fmt::Write;
 use minijinja::{Environment, Value, context};
 use serde_json::json;
@@ -95,7 +97,9 @@ pub fn html(page: &Page) -> String {
         page.summary.iter().map(|fact| context! { label => &fact.label, value => &fact.value }).collect();
     let tables: Vec<Value> =
         page.tables.iter().enumerate().map(|(index, table)| described_table(table, index)).collect();
-    let filled = Environment::new().render_named_str(
+    let mut environment = Environment::new();
+    environment.add_filter("words", |text: String| safe(escape::words(&text)));
+    let filled = environment.render_named_str(
         "page.html",
         TEMPLATE,
         context! {
@@ -154,6 +158,7 @@ fn replay_figure(replay: &Replay, number: usize) -> Value {
         obstacles => replay.obstacles.iter().any(|frame| !frame.is_empty()),
         food => false,
         space => replay::axes(&replay.stage) == 3,
+        open => replay.stage.edges[..replay::axes(&replay.stage)].contains(&Border::Open),
         frames => replay.times.len().min(replay.position.len()),
     }
 }
@@ -230,7 +235,7 @@ fn nonce<'a>(texts: impl Iterator<Item = &'a String>) -> String {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 mod tests {
-    use super::super::{Axis, Border, Fact, Line, Listing, Moment, Outline, Seen};
+    use super::super::{Axis, Fact, Line, Listing, Moment, Outline, Seen};
     use super::*;
 
     /// A text that gets out of wherever it is not escaped.

@@ -20,6 +20,21 @@ pub(crate) fn markup(text: &str) -> String {
     out
 }
 
+/// A text as [`markup`]; what stands between two backticks is code.
+pub(super) fn words(text: &str) -> String {
+    let text = markup(text);
+    let mut parts: Vec<&str> = text.split('`').collect();
+    // one that is left over is a backtick
+    let lonely = if parts.len().is_multiple_of(2) { parts.pop() } else { None };
+    let mut out = String::with_capacity(text.len());
+    for (index, part) in parts.into_iter().enumerate() {
+        let (before, after) = if index % 2 == 1 { ("<code>", "</code>") } else { ("", "") };
+        out.extend([before, part, after]);
+    }
+    out.extend(lonely.iter().flat_map(|part| ["`", part]));
+    out
+}
+
 /// Data inside a `<script>` element: JSON in which nothing can end the element or begin a comment.
 pub(super) fn data(value: &Value) -> String {
     // these three stand inside strings only, where their escapes mean the same
@@ -47,6 +62,14 @@ mod tests {
         let text = data(&value);
         assert!(!text.contains(['<', '>', '&']));
         assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), value);
+    }
+
+    #[test]
+    fn code_between_backticks() {
+        assert_eq!(words("the model `a_b` of `c<d`."), "the model <code>a_b</code> of <code>c&lt;d</code>.");
+        assert_eq!(words("plain & simple"), "plain &amp; simple");
+        assert_eq!(words("`a` and ` alone"), "<code>a</code> and ` alone");
+        assert_eq!(words(""), "");
     }
 
     #[test]

@@ -179,10 +179,9 @@ impl Measured {
                         continue;
                     }
                     let line = |(k, label): (usize, &&str)| self.line(group, column + k, (*label).to_owned());
-                    let of = if self.groups.len() > 1 { format!(", {}", self.groups[group]) } else { String::new() };
                     figures.push(Figure::Lines(Lines {
                         id: format!("{state}_{}", self.groups[group]),
-                        title: format!("Shares of each {state}{of}"),
+                        title: format!("Shares of each {state}{}", self.of(group)),
                         about: format!("Share of members in each {state} at the time of measurement."),
                         x: x.clone(),
                         y: Axis { label: "share of members".into(), unit: "1".into(), range: Some((0.0, 1.0)) },
@@ -192,23 +191,73 @@ impl Measured {
                 column += labels.len();
                 continue;
             }
-            // the rest are counts of contacts, shown together
-            let rest = column..self.columns.len();
-            for group in 0..self.groups.len() {
-                let of = if self.groups.len() > 1 { format!(", {}", self.groups[group]) } else { String::new() };
-                let line = |column: usize| self.line(group, column, self.columns[column].0.replace('_', " "));
-                figures.push(Figure::Lines(Lines {
-                    id: format!("contacts_{}", self.groups[group]),
-                    title: format!("Contacts{of}"),
-                    about: "Contacts since the measurement before.".into(),
-                    x: x.clone(),
-                    y: Axis { label: "contacts".into(), unit: "1".into(), range: None },
-                    lines: rest.clone().map(line).collect(),
-                }));
-            }
+            // the rest are counts, which figures of their own tell apart
             break;
         }
+        figures.extend(self.counts(&x));
         figures
+    }
+    /// Figures of what was counted between measurements: contacts by what was touched, refused moves, detections of scanners.
+    fn counts(&self, x: &Axis) -> Vec<Figure> {
+        let column = |name: &str| self.columns.iter().position(|(other, _)| other == name);
+        let happened = |line: &Line| line.y.iter().flatten().any(|&count| count > 0.0);
+        let figure = |id: String, title: String, about: String, label: &str, lines: Vec<Line>| {
+            let y = Axis { label: label.into(), unit: "1".into(), range: None };
+            Figure::Lines(Lines { id, title, about, x: x.clone(), y, lines })
+        };
+        let mut figures = Vec::new();
+        for group in 0..self.groups.len() {
+            let with =
+                |what: &&str| Some(self.line(group, column(&format!("contacts_{what}"))?, format!("with {what}")));
+            let lines = tables::CONTACTS.iter().filter_map(with);
+            // what was never touched is said and not drawn
+            let (met, never): (Vec<Line>, Vec<Line>) = lines.partition(happened);
+            if met.is_empty() {
+                continue;
+            }
+            let never: Vec<&str> = never.iter().map(|line| line.name.as_str()).collect();
+            let none = if never.is_empty() { String::new() } else { format!(" None {}.", never.join(" or ")) };
+            let only = if met.len() == 1 { format!(" {}", met[0].name) } else { String::new() };
+            figures.push(figure(
+                format!("contacts_{}", self.groups[group]),
+                format!("Contacts{only}{}", self.of(group)),
+                format!(
+                    "Steps in which a member touched something, over all members, since the measurement before.{none}"
+                ),
+                "contacts",
+                met,
+            ));
+        }
+        if let Some(column) = column("refused_moves") {
+            let lines = (0..self.groups.len()).map(|group| self.line(group, column, self.groups[group].clone()));
+            let lines: Vec<Line> = lines.filter(happened).collect();
+            if !lines.is_empty() {
+                let about =
+                    "Moves that were not made since the measurement before, because they would have ended in contact.";
+                figures.push(figure("refused_moves".into(), "Refused moves".into(), about.into(), "moves", lines));
+            }
+        }
+        // all scanners are counted together, beside the last group
+        if let Some(everyone) = self.groups.len().checked_sub(1) {
+            let line = |&(name, _): &(&str, &str)| Some(self.line(everyone, column(name)?, name.replace('_', " ")));
+            let lines: Vec<Line> = tables::DETECTIONS.iter().filter_map(line).collect();
+            if lines.iter().any(happened) {
+                let about = "Over all scanners, since the measurement before: members in range and field of view of a scan; those of them of \
+                             whom nothing was detected; inputs that detection found; and inputs that belong to no member.";
+                figures.push(figure("detections".into(), "Detections".into(), about.into(), "count", lines));
+            }
+        }
+        figures
+    }
+    /// What a title of several groups ends in.
+    fn of(&self, group: usize) -> String {
+        if self.groups.len() > 1 { format!(", {}", self.groups[group]) } else { String::new() }
+    }
+    /// Whether contacts were counted, and there were none.
+    fn untouched(&self) -> bool {
+        let mut contacts = (0..self.columns.len()).filter(|&k| self.columns[k].0.starts_with("contacts_")).peekable();
+        let none = |column: usize| self.values.iter().all(|group| group[column].iter().all(|&count| count == 0.0));
+        contacts.peek().is_some() && contacts.all(none)
     }
     /// Mean of a column over the last quarter of the run.
     fn late(&self, group: usize, column: usize) -> Option<f64> {
@@ -248,6 +297,9 @@ fn summary(scenario: &Scenario, schedule: &Schedule, seed: u64, measured: &Measu
         let Some(value) = measured.groups.get(last).and_then(|_| measured.late(last, column)) else { continue };
         let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
         facts.push(fact(&format!("{} (mean, last quarter)", card.title), format!("{}{unit}", short(value))));
+    }
+    if measured.untouched() {
+        facts.push(fact("Contacts", "none".into()));
     }
     facts
 }
@@ -542,10 +594,15 @@ impl Motion {
         };
         let views =
             if setting.dimensions == 3 { " Each is seen from above, from the front and from the side." } else { "" };
+        let open = if setting.edges[..setting.dimensions].contains(&Border::Open) {
+            " Each shows where the agents are; its bar says how large that is."
+        } else {
+            ""
+        };
         Some(Figure::Scenes(Scenes {
             title: "Moments".into(),
             about: format!(
-                "From the first to the last kept frame, with trails of up to {TRAIL} frames.{views}{}",
+                "From the first to the last kept frame, with trails of up to {TRAIL} frames.{views}{open}{}",
                 self.drawn()
             ),
             stage: self.stage(setting, scenario),
@@ -574,5 +631,65 @@ impl Motion {
                 vec![setting.at(0.0)]
             },
         }))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::panic, reason = "tests")]
+mod tests {
+    use super::*;
+
+    fn measured(columns: &[(&str, [f64; 3])]) -> Measured {
+        Measured {
+            columns: columns.iter().map(|(name, _)| ((*name).to_owned(), "1".to_owned())).collect(),
+            groups: vec!["robots".into()],
+            time: vec![vec![0.0, 1.0, 2.0]],
+            values: vec![columns.iter().map(|(_, values)| values.to_vec()).collect()],
+        }
+    }
+
+    fn counts(measured: &Measured) -> Vec<(String, Vec<String>, String)> {
+        let x = Axis { label: "time".into(), unit: "s".into(), range: None };
+        let told = |figure: Figure| match figure {
+            Figure::Lines(it) => (it.title, it.lines.into_iter().map(|line| line.name).collect(), it.about),
+            other => panic!("{other:?}"),
+        };
+        measured.counts(&x).into_iter().map(told).collect()
+    }
+
+    #[test]
+    fn contacts_refused_moves_and_detections_are_figures_of_their_own() {
+        let all = counts(&measured(&[
+            ("contacts_members", [0.0, 2.0, 1.0]),
+            ("contacts_obstacles", [0.0; 3]),
+            ("contacts_walls", [0.0, 0.0, 4.0]),
+            ("refused_moves", [0.0, 2.0, 5.0]),
+            ("members_in_view", [0.0, 40.0, 41.0]),
+            ("members_missed", [0.0, 8.0, 9.0]),
+            ("detections", [0.0, 32.0, 32.0]),
+            ("false_detections", [0.0; 3]),
+        ]));
+        let named: Vec<(&str, Vec<&str>)> =
+            all.iter().map(|(title, lines, _)| (title.as_str(), lines.iter().map(String::as_str).collect())).collect();
+        assert_eq!(
+            named,
+            [
+                ("Contacts", vec!["with members", "with walls"]),
+                ("Refused moves", vec!["robots"]),
+                ("Detections", vec!["members in view", "members missed", "detections", "false detections"]),
+            ]
+        );
+        assert!(all[0].2.ends_with("None with obstacles."), "what was never touched is said: {}", all[0].2);
+    }
+
+    #[test]
+    fn what_never_happened_is_no_figure() {
+        let none = [("contacts_members", [0.0; 3]), ("contacts_obstacles", [0.0; 3]), ("contacts_walls", [0.0; 3])];
+        assert_eq!(counts(&measured(&none)), []);
+        assert!(measured(&none).untouched() && !measured(&[]).untouched());
+        let one = [none[0], none[1], ("contacts_walls", [0.0, 1.0, 0.0])];
+        assert_eq!(counts(&measured(&one))[0].0, "Contacts with walls", "a line alone has its name in the title");
+        assert!(!measured(&one).untouched());
+        assert_eq!(counts(&measured(&[])), []);
     }
 }

@@ -82,7 +82,7 @@
   const saveText = (name, text, type) => save(name, new Blob([text], { type: `${type};charset=utf-8` }));
   const cell = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
-  const LOOKS = ["fill", "stroke", "stroke-width", "stroke-linecap", "stroke-linejoin", "stroke-dasharray",
+  const LOOKS = ["fill", "stroke", "stroke-width", "stroke-linecap", "stroke-linejoin", "stroke-dasharray", "paint-order",
     "font-family", "font-size", "font-style"];
 
   /** A drawing as a file of its own, with its data: what the style sheet says is written into its elements. */
@@ -366,8 +366,15 @@
     const data = unpacked(replay, bytes);
     const frames = times.length;
     const space = stage.axes === 3;
-    const size = [0, 1, 2].map((axis) => (axis < stage.axes ? stage.high[axis] - stage.low[axis] : 0));
-    const centre = [0, 1, 2].map((axis) => (axis < stage.axes ? (stage.high[axis] + stage.low[axis]) / 2 : 0));
+    const AXES = [0, 1, 2];
+    const inside = (low, high) => ({
+      size: AXES.map((axis) => (axis < stage.axes ? high[axis] - low[axis] : 0)),
+      centre: AXES.map((axis) => (axis < stage.axes ? (high[axis] + low[axis]) / 2 : 0)),
+      corners: [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => AXES.map((axis) => (bits >> axis & 1 ? high : low)[axis])),
+    });
+    const whole = inside(stage.low, stage.high);
+    // what is looked at: the stage, or the surroundings of the agents
+    let { size, centre, corners } = whole;
     const canvas = one("canvas", player), pen = canvas.getContext("2d");
     const scrub = one(".scrub", player), time = one(".time", player);
     const trails = one(".trails", player), loop = one(".loop", player), speed = one(".speed", player);
@@ -387,12 +394,35 @@
     };
     const series = (group) => colours.series[group % colours.series.length];
 
-    const radius = Math.hypot(...size) / 2;
-    const corner = (bits) => [0, 1, 2].map((axis) => (bits >> axis & 1 ? stage.high[axis] : stage.low[axis]));
-    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(corner);
-    /** A camera that looks at the middle of the stage from a distance, upright. */
+    const corner = (bits) => whole.corners[bits];
+
+    // In the open a group can travel so far that nothing is seen of it on the whole stage: then the view follows it. Its size stays
+    // what the group needs when it is widest, so that nobody is ever outside, and nothing but the group's own motion changes a length.
+    const follow = one(".follow", player);
+    const open = AXES.filter((axis) => axis < stage.axes && stage.edges[axis] === "open");
+    const boxes = follow === null ? [] : times.map((_, at) => {
+      const low = [Infinity, Infinity, Infinity], high = low.map((end) => -end);
+      for (let index = 0; index < data.agents; index += 1) {
+        const place = data.place(at, index);
+        if (Number.isNaN(place[0])) continue;
+        for (const axis of open) [low[axis], high[axis]] = [Math.min(low[axis], place[axis]), Math.max(high[axis], place[axis])];
+      }
+      return { low, high };
+    });
+    const widest = boxes.reduce((most, box) => Math.max(most, ...open.map((axis) => box.high[axis] - box.low[axis])), 0);
+    const reach = AXES.map((axis) => 1.1 * Math.max(widest / 10, ...boxes.map((box) => box.high[axis] - box.low[axis])));
+    if (follow !== null) follow.checked = widest > 0 && 2.5 * widest < Math.max(...open.map((axis) => whole.size[axis]));
+    const look = () => {
+      const box = boxes[frame];
+      if (!follow?.checked || widest === 0 || !(box?.low[open[0]] <= box?.high[open[0]])) return whole;
+      const end = (side) => AXES.map((axis) => (open.includes(axis)
+        ? (box.low[axis] + box.high[axis]) / 2 + side * reach[axis] / 2 : (side < 0 ? stage.low : stage.high)[axis]));
+      return inside(end(-1), end(1));
+    };
+    const radius = () => Math.hypot(...size) / 2;
+    /** A camera that looks at the middle of what is looked at from a distance, upright. */
     const camera = ({ turn, tilt }, scale, offset) => {
-      const far = 3.4 * radius;
+      const far = 3.4 * radius();
       const [cosTurn, sinTurn, cosTilt, sinTilt] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
       return (place) => {
         const x = place[0] - centre[0], y = place[1] - centre[1], z = place[2] - centre[2];
@@ -405,10 +435,11 @@
     // from a place on the stage to the screen: [across, down, depth, units of the screen per unit of length]
     let project;
     const aim = () => {
-      const inside = [wide - 2 * ROOM, tall - ROOM - FOOT];
-      const middle = [wide / 2, ROOM + inside[1] / 2];
+      ({ size, centre, corners } = look());
+      const room = [wide - 2 * ROOM, tall - ROOM - FOOT];
+      const middle = [wide / 2, ROOM + room[1] / 2];
       if (!space) {
-        const scale = Math.min(inside[0] / size[0], stage.axes === 2 ? inside[1] / size[1] : Infinity);
+        const scale = Math.min(room[0] / size[0], stage.axes === 2 ? room[1] / size[1] : Infinity);
         project = ([x, y]) => [middle[0] + (x - centre[0]) * scale, middle[1] - (y - centre[1]) * scale, 0, scale];
         return;
       }
@@ -416,7 +447,7 @@
       const seen = corners.map(camera(FIRST_VIEW, 1, [0, 0]));
       const [lefts, tops] = [0, 1].map((axis) => seen.map((place) => place[axis]));
       const [least, most] = [[Math.min(...lefts), Math.min(...tops)], [Math.max(...lefts), Math.max(...tops)]];
-      const scale = 0.97 * Math.min(...[0, 1].map((axis) => inside[axis] / (most[axis] - least[axis])));
+      const scale = 0.97 * Math.min(...[0, 1].map((axis) => room[axis] / (most[axis] - least[axis])));
       const offset = [0, 1].map((axis) => middle[axis] - scale * view.zoom * (least[axis] + most[axis]) / 2);
       project = camera(view, scale * view.zoom, offset);
     };
@@ -470,7 +501,7 @@
       pen.stroke();
     };
     /** What is far away in space is paler. */
-    const paleness = (depth) => (space ? 1 - 0.5 * clamp((depth / radius + 1) / 2, 0, 1) : 1);
+    const paleness = (depth) => (space ? 1 - 0.5 * clamp((depth / radius() + 1) / 2, 0, 1) : 1);
     /** An obstacle as things to draw. */
     const obstacle = (outline) => {
       if (outline.ball) {
@@ -542,19 +573,20 @@
       return [depth, () => {
         pen.globalAlpha = paleness(depth);
         if (arrow) path(arrow, true); else { pen.beginPath(); pen.arc(x, y, half * 0.6, 0, 2 * Math.PI); }
-        pen.fillStyle = series(group);
-        pen.fill();
+        // the outline parts it from those behind it; drawn first, it hides nothing of the agent
         if (data.agents <= MANY) {
           pen.strokeStyle = colours.stage;
-          pen.lineWidth = 0.7;
+          pen.lineWidth = 1.4;
           pen.stroke();
         }
+        pen.fillStyle = series(group);
+        pen.fill();
         pen.globalAlpha = 1;
       }];
     };
 
     const seams = [0, 1, 2].filter((axis) => axis < stage.axes && stage.edges[axis] === "seam");
-    const crossesSeam = (from, to) => seams.some((axis) => Math.abs(to[axis] - from[axis]) > size[axis] / 2);
+    const crossesSeam = (from, to) => seams.some((axis) => Math.abs(to[axis] - from[axis]) > whole.size[axis] / 2);
     const drawTrails = () => {
       const first = Math.max(0, frame - clamp(Math.round(TRAIL_STEPS / data.agents), 4, TRAIL)), steps = frame - first;
       if (steps === 0) return;
@@ -688,6 +720,7 @@
     scrub.disabled = frames < 2;
     scrub.addEventListener("input", () => { run(0); go(Number(scrub.value)); });
     trails.addEventListener("change", draw);
+    follow?.addEventListener("change", () => fit());
     const perFrame = frames > 1 ? Math.abs(times[frames - 1] - times[0]) / (frames - 1) : 0;
     if (perFrame > 0) {
       const seconds = Number((perFrame * pace).toPrecision(2));
@@ -742,7 +775,7 @@
     const fit = () => {
       const room = one(".screen", player).clientWidth - 2;
       if (room <= 0) return;
-      const shape = stage.axes === 1 ? 0 : space ? 0.72 : size[1] / size[0];
+      const shape = stage.axes === 1 ? 0 : space ? 0.72 : look().size[1] / look().size[0];
       const most = Math.max(260, Math.min(620, innerHeight * 0.76));
       wide = room;
       tall = stage.axes === 1 ? 110 : clamp((room - 2 * ROOM) * shape + ROOM + FOOT, 120, most);

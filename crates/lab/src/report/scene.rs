@@ -4,7 +4,7 @@ use super::escape::markup;
 use super::number::{place, quantity};
 use super::palette::SERIES;
 use super::replay::{axes, extent};
-use super::ticks::round_length;
+use super::ticks::{ends, round_length};
 use super::{Border, Moment, Outline, Scenes, Seen, Stage};
 use core::fmt::Write;
 
@@ -20,6 +20,8 @@ const NARROWEST: f64 = 30.0;
 const WORDS: f64 = 18.0;
 /// Room for the name of a view.
 const NAMED: f64 = 126.0;
+/// Room for the scale bar below the views.
+const BELOW: f64 = 24.0;
 /// Distance between views.
 const GAP: f64 = 10.0;
 /// Least half length of an agent.
@@ -30,6 +32,10 @@ const SMALLEST_AMONG_MANY: f64 = 2.6;
 const MANY: usize = 800;
 /// Steps in which a trail fades.
 const FADES: usize = 5;
+/// In the open, the window follows the agents where the stage is so many times as wide as they are.
+const SPREAD: f64 = 2.5;
+/// What stands around them is in the window where it then is at most so many times as wide as they are.
+const AROUND: f64 = 3.0;
 /// Names of the axes.
 const AXES: [char; 3] = ['x', 'y', 'z'];
 
@@ -47,47 +53,128 @@ struct View {
     height: f64,
 }
 
+/// Ends by axis.
+type Ends = [(f64, f64); 3];
+
+/// The ends of points; none where there are no points.
+fn around<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> Option<Ends> {
+    points.filter(|point| finite(point)).map(|point| point.map(|value| (value, value))).reduce(joined)
+}
+
+fn joined(one: Ends, other: Ends) -> Ends {
+    core::array::from_fn(|axis| (one[axis].0.min(other[axis].0), one[axis].1.max(other[axis].1)))
+}
+
+/// The longest side along axes without an end.
+fn open_side(stage: &Stage, ends: &Ends) -> f64 {
+    let open = (0..axes(stage)).filter(|&axis| stage.edges[axis] == Border::Open);
+    open.map(|axis| ends[axis].1 - ends[axis].0).fold(0.0, f64::max)
+}
+
+/// The agents of a moment and how wide they are: at least half as wide as their trails, which are all there is to see of one
+/// alone.
+fn crowd(stage: &Stage, moment: &Moment) -> Option<(Ends, f64)> {
+    let widest = stage.radius.iter().copied().filter(|radius| radius.is_finite()).fold(0.0, f64::max);
+    let crowd = around(moment.agents.iter().map(|agent| &agent.position))?;
+    let crowd = crowd.map(|(low, high)| (low - widest, high + widest));
+    let trails =
+        around(moment.agents.iter().flat_map(|agent| &agent.trail)).map_or(crowd, |trails| joined(crowd, trails));
+    Some((crowd, open_side(stage, &crowd).max(open_side(stage, &trails) / 2.0)))
+}
+
+/// What a moment shows: the stage; in the open, where a group may travel far, its surroundings at that moment. Whoever is
+/// beyond the stage is shown as well.
+fn window(scenes: &Scenes, moment: &Moment) -> Ends {
+    let (stage, whole) = (&scenes.stage, extent(&scenes.stage));
+    let Some((crowd, side)) = crowd(stage, moment) else { return whole };
+    // all moments of a figure or none, so that those that can be compared are drawn to one scale
+    let travels = |(_, side): (Ends, f64)| side > 0.0 && side * SPREAD < open_side(stage, &whole);
+    let follows = scenes.moments.iter().filter_map(|moment| self::crowd(stage, moment)).any(travels);
+    let mut shown = if follows && side > 0.0 {
+        let things = moment
+            .obstacles
+            .iter()
+            .filter_map(reach)
+            .chain(moment.items.iter().filter_map(|item| around([item].into_iter())));
+        let near = things.filter(|thing| open_side(stage, &joined(crowd, *thing)) <= AROUND * side);
+        near.fold(crowd, joined)
+    } else {
+        joined(whole, crowd)
+    };
+    for axis in 0..3 {
+        let (low, high) = shown[axis];
+        shown[axis] = if stage.edges[axis] != Border::Open || axis >= axes(stage) {
+            (low.min(whole[axis].0), high.max(whole[axis].1))
+        } else if high - low < side / 10.0 {
+            // a group in single file is no reason to look at a single line
+            ((low + high - side / 10.0) / 2.0, (low + high + side / 10.0) / 2.0)
+        } else {
+            (low, high)
+        };
+    }
+    shown.map(|range| ends(Some(range), [range.0, range.1].into_iter()))
+}
+
+/// The ends of an obstacle; none of one that is not finite.
+fn reach(outline: &Outline) -> Option<Ends> {
+    match outline {
+        Outline::Ball { centre, radius } => radius
+            .is_finite()
+            .then(|| around([centre].into_iter()))
+            .flatten()
+            .map(|ends| ends.map(|(low, high)| (low - radius.abs(), high + radius.abs()))),
+        Outline::Segment { from, to } => around([from, to].into_iter()),
+        Outline::Polygon(corners) => around(corners.iter()),
+        Outline::Cuboid { low, high } => around([low, high].into_iter()),
+    }
+}
+
 /// Where everything stands in a drawing.
 struct Layout {
     views: Vec<View>,
     /// Units of the drawing per unit of length.
     scale: f64,
-    extent: [(f64, f64); 3],
+    /// What is shown.
+    window: Ends,
+    /// Where the stage ends.
+    stage: Ends,
     /// Left end and base line of the scale bar.
     bar: (f64, f64),
     height: f64,
 }
 
 impl Layout {
-    fn of(stage: &Stage) -> Self {
-        let extent = extent(stage);
-        let size = extent.map(|(low, high)| high - low);
+    fn of(stage: &Stage, window: Ends) -> Self {
+        let size = window.map(|(low, high)| high - low);
         let inside = WIDTH - 2.0 * ROOM;
         // a view that would be a hair line gets room on both sides
         let wide = |scale: f64, axis: usize| (size[axis] * scale).max(NARROWEST);
         let fitting = |length: f64, room: f64| (room / length).max(f64::MIN_POSITIVE);
-        let (views, scale, bar, height);
+        let (views, scale, left, bottom);
         match axes(stage) {
             1 => {
                 scale = fitting(size[0], inside);
                 views = vec![View { name: "", right: 0, up: None, left: ROOM, top: ROOM, width: inside, height: 64.0 }];
-                bar = (ROOM, 64.0 + 2.0 * ROOM + 14.0);
-                height = bar.1 + 10.0;
+                (left, bottom) = (ROOM, ROOM + 64.0);
             }
             2 => {
                 scale = fitting(size[0], inside).min(fitting(size[1], TALLEST));
-                let (width, tall) = (wide(scale, 0).min(inside), wide(scale, 1));
-                let left = (WIDTH - width) / 2.0;
+                let (width, tall) = (wide(scale, 0), wide(scale, 1));
+                left = (WIDTH - width) / 2.0;
                 views = vec![View { name: "", right: 0, up: Some(1), left, top: ROOM, width, height: tall }];
-                bar = (left, tall + 2.0 * ROOM + 14.0);
-                height = bar.1 + 10.0;
+                bottom = ROOM + tall;
             }
             _ => {
+                // two columns and two rows; beside the widest there must be room for the narrowest and its name
                 let beside = inside - 2.0 * ROOM - GAP;
-                scale = fitting(size[0] + size[1], beside).min(fitting(size[1] + size[2], TALLEST));
-                let [x, y, z] = [0, 1, 2].map(|axis| wide(scale, axis).min(beside));
+                let pair = |one: usize, other: usize, room: f64, least: f64| {
+                    let both = fitting(size[one] + size[other], room);
+                    both.min(fitting(size[one].max(size[other]), room - least))
+                };
+                scale = pair(0, 1, beside, NAMED).min(pair(1, 2, TALLEST, NARROWEST));
+                let [x, y, z] = [0, 1, 2].map(|axis| wide(scale, axis));
                 let aside = (x + 2.0 * ROOM + GAP).max(NAMED);
-                let left = ((WIDTH - aside - y) / 2.0).max(ROOM);
+                left = ((WIDTH - aside - y.max(NAMED)) / 2.0).max(ROOM);
                 let (second, below) = (left + aside, WORDS + y + 2.0 * ROOM + WORDS + GAP);
                 let view = |name, right, up, left, top, width, height| View {
                     name,
@@ -103,15 +190,15 @@ impl Layout {
                     view("the front", 0, 2, left, below + ROOM, x, z),
                     view("the side", 1, 2, second, below + ROOM, y, z),
                 ];
-                bar = (second, WORDS + ROOM + y);
-                height = below + z + 2.0 * ROOM + 2.0;
+                bottom = below + ROOM + z;
             }
         }
-        Self { views, scale, extent, bar, height }
+        let base = bottom + ROOM + 14.0;
+        Self { views, scale, window, stage: extent(stage), bar: (left, base), height: bottom + BELOW + 7.0 }
     }
     /// A place in a view.
     fn at(&self, view: &View, position: &[f64; 3]) -> (f64, f64) {
-        let middle = |axis: usize| (self.extent[axis].0 + self.extent[axis].1) / 2.0;
+        let middle = |axis: usize| (self.window[axis].0 + self.window[axis].1) / 2.0;
         let across = (position[view.right] - middle(view.right)) * self.scale;
         let up = view.up.map_or(0.0, |axis| (position[axis] - middle(axis)) * self.scale);
         (view.left + view.width / 2.0 + across, view.top + view.height / 2.0 - up)
@@ -121,7 +208,7 @@ impl Layout {
 /// The drawing of a moment.
 pub(super) fn scene(scenes: &Scenes, moment: &Moment) -> String {
     let stage = &scenes.stage;
-    let layout = Layout::of(stage);
+    let layout = Layout::of(stage, window(scenes, moment));
     let mut svg = String::new();
     // writing to a string cannot fail, here and below
     let _ = write!(
@@ -235,7 +322,7 @@ fn draw_view(svg: &mut String, stage: &Stage, moment: &Moment, layout: &Layout, 
             let _ = write!(svg, "<path class=\"agent s{}\" d=\"{path}\"/>", group % SERIES);
         }
     }
-    draw_edges(svg, stage, view);
+    draw_edges(svg, stage, layout, view);
     svg.push_str("</svg>");
 }
 
@@ -286,7 +373,7 @@ fn draw_trails<'a>(
         let mut pen = None;
         for (index, step) in trail.windows(2).enumerate() {
             let (from, to) = (step[0], step[1]);
-            if !finite(from) || !finite(to) || crosses_seam(stage, &layout.extent, from, to) {
+            if !finite(from) || !finite(to) || crosses_seam(stage, &layout.stage, from, to) {
                 pen = None;
                 continue;
             }
@@ -308,7 +395,7 @@ fn draw_trails<'a>(
 }
 
 /// Whether a step went across a seam: more than half of an axis that closes on itself.
-fn crosses_seam(stage: &Stage, extent: &[(f64, f64); 3], from: &[f64; 3], to: &[f64; 3]) -> bool {
+fn crosses_seam(stage: &Stage, extent: &Ends, from: &[f64; 3], to: &[f64; 3]) -> bool {
     (0..axes(stage)).any(|axis| {
         let (low, high) = extent[axis];
         stage.edges[axis] == Border::Seam && (to[axis] - from[axis]).abs() > (high - low) / 2.0
@@ -358,9 +445,19 @@ fn draw_outline(svg: &mut String, outline: &Outline, layout: &Layout, view: &Vie
 }
 
 /// The ends of both axes: walls solid, seams dashed.
-fn draw_edges(svg: &mut String, stage: &Stage, view: &View) {
-    let (right, bottom) = (view.left + view.width, view.top + view.height);
-    let [left, top, right, bottom] = [view.left, view.top, right, bottom].map(place);
+fn draw_edges(svg: &mut String, stage: &Stage, layout: &Layout, view: &View) {
+    let (low, high) = (layout.stage.map(|(low, _)| low), layout.stage.map(|(_, high)| high));
+    let ((left, mut bottom), (right, mut top)) = (layout.at(view, &low), layout.at(view, &high));
+    if view.up.is_none() {
+        (top, bottom) = (view.top, view.top + view.height);
+    }
+    // along an axis without an end, lines go on to the end of the view
+    let open = |axis: usize| stage.edges[axis] == Border::Open;
+    let across = if open(view.right) { (view.left - ROOM, view.left + view.width + ROOM) } else { (left, right) };
+    let upright =
+        if view.up.is_some_and(open) { (view.top - ROOM, view.top + view.height + ROOM) } else { (top, bottom) };
+    let [left, top, right, bottom] = [left, top, right, bottom].map(place);
+    let [(west, east), (north, south)] = [across, upright].map(|(from, to)| (place(from), place(to)));
     let mut draw = |axis: usize, path: String| match stage.edges[axis] {
         Border::Wall => {
             let _ = write!(svg, "<path class=\"wall\" d=\"{path}\"/>");
@@ -370,9 +467,9 @@ fn draw_edges(svg: &mut String, stage: &Stage, view: &View) {
         }
         Border::Open => {}
     };
-    draw(view.right, format!("M{left} {top}V{bottom}M{right} {top}V{bottom}"));
+    draw(view.right, format!("M{left} {north}V{south}M{right} {north}V{south}"));
     if let Some(up) = view.up {
-        draw(up, format!("M{left} {top}H{right}M{left} {bottom}H{right}"));
+        draw(up, format!("M{west} {top}H{east}M{west} {bottom}H{east}"));
     }
 }
 
@@ -438,7 +535,7 @@ mod tests {
 
     #[test]
     fn an_arrowhead_points_along_the_heading_and_up_is_up() {
-        let layout = Layout::of(&stage(2));
+        let layout = Layout::of(&stage(2), extent(&stage(2)));
         let mut path = String::new();
         draw_agent(&mut path, &agent([5.0, 5.0, 0.0], [0.0, 1.0, 0.0], &[]), 10.0, &layout, &layout.views[0]);
         let (x, y) = layout.at(&layout.views[0], &[5.0, 5.0, 0.0]);
@@ -454,6 +551,69 @@ mod tests {
         let open = Stage { edges: [Border::Open; 3], ..stage(3) };
         let svg = drawn(open, vec![]);
         assert!(!svg.contains("class=\"seam\"") && !svg.contains("class=\"wall\""));
+    }
+
+    /// Middles of the agents in each view, with the rectangle of the view.
+    fn middles(scenes: &Scenes, moment: &Moment) -> Vec<([f64; 2], [f64; 4])> {
+        let layout = Layout::of(&scenes.stage, window(scenes, moment));
+        let seen = |view: &View| {
+            let rectangle = [view.left, view.top, view.left + view.width, view.top + view.height];
+            moment.agents.iter().map(|agent| (layout.at(view, &agent.position).into(), rectangle)).collect::<Vec<_>>()
+        };
+        layout.views.iter().flat_map(seen).collect()
+    }
+
+    #[test]
+    fn nobody_is_cut_away() {
+        let shapes = [
+            [20.0, 20.0, 20.0],
+            [1.0, 2.0, 900.0],
+            [900.0, 2.0, 1.0],
+            [0.0, 900.0, 0.0],
+            [3.0, 900.0, 900.0],
+            [0.0; 3],
+        ];
+        let edges = [[Border::Open; 3], [Border::Wall; 3], [Border::Seam, Border::Open, Border::Wall]];
+        for (size, edges) in shapes.into_iter().flat_map(|size| edges.map(|edges| (size, edges))) {
+            for (dimensions, far) in [(2, 0.0), (3, 0.0), (2, 5e3), (3, 5e3)] {
+                let corner = |bits: usize| {
+                    core::array::from_fn(|axis| far + if bits >> axis & 1 > 0 { size[axis] } else { 0.0 })
+                };
+                let agents = (0..8).map(|bits| agent(corner(bits), [1.0, 0.0, 0.0], &[[0.0; 3]])).collect();
+                let stage = Stage { high: [10.0; 3].map(|side| side + far), edges, ..stage(dimensions) };
+                let moment = Moment { time: 0.0, agents, items: vec![], obstacles: vec![] };
+                for ([x, y], [left, top, right, bottom]) in middles(&scenes(stage, moment.clone()), &moment) {
+                    let within = x >= left - 1e-6 && x <= right + 1e-6 && y >= top - 1e-6 && y <= bottom + 1e-6;
+                    assert!(within, "{size:?} {edges:?} {dimensions} {far}: {x} {y} of {left} {top} {right} {bottom}");
+                    assert!(left >= 0.0 && right <= WIDTH + 1e-6, "{size:?} {edges:?} {dimensions}: {left} {right}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn in_the_open_a_scene_shows_where_the_agents_are() {
+        let flock = |at: f64| -> Vec<Seen> {
+            (0..8)
+                .map(|bits: i32| {
+                    agent([0, 1, 2].map(|axis| at + f64::from(bits >> axis & 1) * 10.0), [1.0, 0.0, 0.0], &[])
+                })
+                .collect()
+        };
+        let near = Outline::Ball { centre: [995.0; 3], radius: 2.0 };
+        let moments = [0.0, 1000.0].map(|at| Moment {
+            time: at,
+            agents: flock(at),
+            items: vec![],
+            obstacles: vec![near.clone(), Outline::Ball { centre: [5e4; 3], radius: 2.0 }],
+        });
+        let stage = Stage { high: [1010.0; 3], edges: [Border::Open; 3], ..stage(3) };
+        let all = Scenes { moments: moments.to_vec(), ..scenes(stage.clone(), moments[0].clone()) };
+        let shown = moments.each_ref().map(|moment| window(&all, moment)[2]);
+        assert_eq!(shown[0], (-0.1, 10.1));
+        assert_eq!(shown[1], (993.0, 1010.1), "an obstacle near by is seen, one far away is not");
+        let walled = Scenes { stage: Stage { edges: [Border::Wall; 3], ..stage }, ..all };
+        assert_eq!(window(&walled, &moments[1]), [(0.0, 1010.0 + 0.1); 3], "between walls the whole stage is");
     }
 
     #[test]

@@ -16,8 +16,13 @@ pub(super) struct Ticks {
 /// Nothing of what is drawn may lie further out: differences stay finite.
 pub(super) const FURTHEST: f64 = 1e300;
 
+/// What is equal within this share of its size is one value with the noise of its rounding, since a number in single precision
+/// has seven digits.
+const NOISE: f64 = 1e-6;
+
 /// The ends of an axis: the fixed ends where they make sense, moved outwards so far that every value is shown. Values
-/// that are all equal get room on both sides. Without values: 0 to 1. The ends are finite, and the first is less.
+/// that are all equal, but for rounding, get room on both sides. Without values: 0 to 1. The ends are finite, and the first is
+/// less.
 pub(super) fn ends(fixed: Option<(f64, f64)>, values: impl Iterator<Item = f64>) -> (f64, f64) {
     let fixed = fixed.filter(|(low, high)| low.is_finite() && high.is_finite() && low < high);
     let (mut low, mut high) = fixed.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
@@ -30,8 +35,9 @@ pub(super) fn ends(fixed: Option<(f64, f64)>, values: impl Iterator<Item = f64>)
         return (0.0, 1.0);
     }
     let (low, high) = (low.max(-FURTHEST), high.min(FURTHEST));
-    // less than this cannot be told apart on an axis
-    let least = (low.abs().max(high.abs()) * 1e-9).max(1e-300);
+    // ends that were asked for may lie as near to each other as can be told apart on an axis
+    let apart = if fixed.is_some() { 1e-9 } else { NOISE };
+    let least = (low.abs().max(high.abs()) * apart).max(1e-300);
     if high - low > least {
         return (low, high);
     }
@@ -169,6 +175,21 @@ mod tests {
         assert_eq!(ends(Some((0.0, 1.0)), [0.5].into_iter()), (0.0, 1.0));
         assert_eq!(rounded_ends((0.03, 0.97), 5), (0.0, 1.0));
         assert_eq!(rounded_ends((0.0, 1.0), 5), (0.0, 1.0));
+    }
+
+    #[test]
+    fn rounding_is_not_a_change() {
+        let noise = [6.0000001, 5.9999998, 6.0, 5.9999995];
+        let constant = ends(None, noise.into_iter());
+        assert!(constant.0 < 5.5 && constant.1 > 6.5, "{constant:?}");
+        let (low, high) = rounded_ends(constant, 5);
+        let labels = labels_of(low, high, 5);
+        assert!(labels.contains(&"6.0".to_owned()), "{labels:?}");
+        assert!(labels.iter().all(|label| label.len() <= 4), "{labels:?}");
+        assert_eq!(ends(None, [-2.0, -2.0 - 1e-7].into_iter()).0.round(), -2.0);
+        // what changes by more is a change, and so is what somebody asked to see
+        assert_eq!(ends(None, [6.0, 6.0001].into_iter()), (6.0, 6.0001));
+        assert_eq!(ends(Some((1e8, 1e8 + 1.0)), [].into_iter()), (1e8, 1e8 + 1.0));
     }
 
     #[test]

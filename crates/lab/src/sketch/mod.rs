@@ -210,7 +210,7 @@ mod tests {
         let saved = save(Target::File, "corral.toml", corral(), &all).unwrap();
         assert_eq!(saved.left_out, 1, "a scenario has no gates");
         let scenario = build::read("corral.toml", &saved.text, &[]).unwrap().scenario;
-        assert_eq!(scenario.obstacle.len(), 4);
+        assert_eq!(scenario.obstacle.len(), 3);
     }
 
     #[test]
