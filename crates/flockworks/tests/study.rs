@@ -233,6 +233,17 @@ fn mistakes_are_shown_at_their_place() {
         (&[("[scenario]", "[senario]")], &["unknown key `senario`"]),
         (&[("[factor.noise]", "design = \"zip\"\n[factor.noise]")], &["`size` has 2 levels and `noise` 3"]),
         (&[("values = [0, 2, 4]", "steps = { from = 0, to = -1, by = 1 }")], &["lead nowhere"]),
+        (&[("values = [0, 2, 4]", "values = [0, 2, inf]")], &["has the level inf", "a finite number"]),
+        (&[("values = [0, 2, 4]", "range = [0, 4]")], &["a range is for designs that draw", "random = "]),
+        (
+            &[("\"group.points.count\" = 40", "\"group.points.count\" = 40\nseed = 3")],
+            &["`seed` cannot differ between cells", "the seed of the study plus t"],
+        ),
+        (&[("\"space.size\" =", "\"record.every\" =")], &["`record` cannot differ between cells"]),
+        (
+            &[("path = \"group.points.model.vicsek_1995.noise_amplitude\"", "path = \"measure.interval\"")],
+            &["`measure` cannot differ between cells", "[reading.NAME]"],
+        ),
         (&[("title = \"A small study\"", "title = \"A\"\nextends = \"none.toml\"")], &["cannot read", "none.toml"]),
     ] {
         // a key before the first table
@@ -247,13 +258,16 @@ fn mistakes_are_shown_at_their_place() {
     let study = file(&folder, &[]);
     for (option, value, part) in [
         ("--cells", "7", "from 1 to 6"),
-        ("--cells", "noise=9", "noise = 0, 2, 4"),
+        ("--cells", "noise=9", "`noise` has no level `9`; it has 0, 2, 4"),
+        ("--cells", "size=smal", "did you mean `small`?"),
+        ("--cells", "nois=2", "no factor is called `nois`; did you mean `noise`?"),
         ("--trials", "0", "--trials takes"),
         ("--shard", "3/2", "--shard takes I/N"),
         ("--cell", "noise=2", "2 cells have"),
     ] {
         refused(&["run", &study, option, value], &[part]);
     }
+    refused(&["run", &study, "--cell", "1", "--cells", "2"], &["cannot be used with"]);
 }
 
 #[test]
@@ -326,6 +340,50 @@ fn a_single_trial_can_be_run_again() {
     assert_eq!(scenario["space"]["size"], 10.0);
     assert_eq!(scenario["group"]["points"]["model"]["vicsek_1995"]["noise_amplitude"], 2.0);
     assert!(out.join("trajectory.parquet").exists());
+    // the study's seed and its few trials choose the trial, and change it no further
+    let out = folder.join("other");
+    run(&study, &out, &["--cell", "noise=2,size=large", "--trial", "3", "--seed", "5", "--quick"]);
+    let manifest: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(out.join("manifest.json")).unwrap()).unwrap();
+    assert_eq!(manifest["seed"], 8);
+    assert_eq!(manifest["identity"]["scenario"]["time"]["duration"], 30.0);
+}
+
+#[test]
+fn finished_trials_are_never_dropped() {
+    let folder = fresh("kept");
+    let (few, more) = (folder.join("few"), folder.join("more"));
+    run(&file(&folder, &[]), &few, &["--trials", "1-2"]);
+    let study = file(&folder, &[("trials = 4", "trials = 5"), ("values = [0, 2, 4]", "values = [0, 1, 2, 4]")]);
+    run(&study, &more, &["--trials", "3-5"]);
+    // whichever folder is named first, and a torn tail stays as it is
+    let log = few.join("trials.log");
+    let mut bytes = std::fs::read(&log).unwrap();
+    bytes.extend([1, 0, 0, 0, 9]);
+    std::fs::write(&log, &bytes).unwrap();
+    let merged: Vec<_> = [["few", "more"], ["more", "few"]]
+        .map(|order| {
+            let out = folder.join(format!("{}-first", order[0]));
+            let from = order.map(|name| folder.join(name).to_str().unwrap().to_owned());
+            let merge = ran(&["merge", &from[0], &from[1], "--out", out.to_str().unwrap()]);
+            assert_eq!(merge.status.code(), Some(0), "{}", text(&merge.stderr));
+            assert!(text(&merge.stdout).contains("36 trials of 2 folders"), "{}", text(&merge.stdout));
+            results(&out)
+        })
+        .to_vec();
+    assert_eq!(merged[0], merged[1]);
+    assert_eq!(bytes, std::fs::read(&log).unwrap());
+    // a page is not made from nothing, nor from a part
+    let before = results(&few);
+    std::fs::rename(&log, folder.join("aside")).unwrap();
+    refused(&["report", few.to_str().unwrap()], &["trials.log"]);
+    bytes[200] ^= 1;
+    std::fs::write(&log, &bytes).unwrap();
+    for verb in [&["report"][..], &["run", &file(&folder, &[]), "--out"]] {
+        refused(&[verb, &[few.to_str().unwrap()]].concat(), &["damaged at byte", "truncate --size"]);
+    }
+    assert_eq!(before, results(&few));
+    assert_eq!(bytes, std::fs::read(&log).unwrap());
 }
 
 /// The experiments of the behaviour-selection study are those of its table: so many conditions, so many different ones.
@@ -364,6 +422,7 @@ fn the_shipped_case_studies_have_their_cells() {
     for (name, said) in [
         ("perception/trials.toml", "90 cells, 90 different conditions, 630 trials"),
         ("perception/robots.toml", "90 cells, 90 different conditions, 630 trials"),
+        ("perception/repulsion.toml", "16 cells, 16 different conditions, 112 trials"),
         ("abstracted/robots-errors.toml", "16 cells, 16 different conditions, 640 trials"),
         ("abstracted/simulations.toml", "16 cells, 16 different conditions, 160 trials"),
         ("abstracted/robots.toml", "4 cells, 4 different conditions"),
@@ -418,8 +477,42 @@ fn a_statement_says_what_it_is_about_and_how_sure_it_must_be() {
         let page = std::fs::read_to_string(out.join("report.html")).unwrap();
         assert!(page.contains(why), "{more}: {why}");
     }
+    // what other cells lack does not matter, and numbers that are none give no verdict
+    for (holds, only, verdict, why) in [
+        ("order[noise = 0, size = small] >= 0", "noise=0,size=small", "holds", "true in 100 % of the drawings"),
+        ("not 0/0 > 2", "noise=0,size=small", "cannot be judged", "this has no value"),
+    ] {
+        let study = file(&folder, &[(claim, &format!("holds = \"{holds}\""))]);
+        let out = folder.join(verdict.split(' ').next().unwrap());
+        run(&study, &out, &["--trials", "1-1", "--cells", "noise=2"]);
+        let ended = run(&study, &out, &["--cells", only]);
+        assert!(text(&ended.stdout).contains(&format!("{verdict:17}falls")), "{}", text(&ended.stdout));
+        let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+        let said = ["tried 0 to 4 times (of 4 planned)", "fewer than ten trials", why];
+        assert!(said.iter().all(|said| page.contains(said)), "{holds}");
+    }
     let study = file(&folder, &[(claim, &format!("{always}\ndoubt = 0.6"))]);
     refused(&["check", &study], &["doubt", "0.6"]);
+}
+
+#[test]
+fn a_test_over_several_cells_takes_only_trials_that_all_of_them_have() {
+    let folder = fresh("pooled");
+    let only = "only = { size = \"small\" }\n";
+    let study = file(&folder, &[(only, ""), ("trials = 4", "trials = 6")]);
+    let (whole, partial) = (folder.join("whole"), folder.join("partial"));
+    run(&study, &whole, &["--trials", "1-3"]);
+    run(&study, &partial, &["--trials", "1-3"]);
+    // three more trials of one size without noise and of the other with it: no group can be told from them
+    run(&study, &partial, &["--cells", "noise=0,size=small"]);
+    run(&study, &partial, &["--cells", "noise=4,size=large"]);
+    let sentence = |folder: &Path| {
+        let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
+        let from = page.find("between the levels of").unwrap();
+        page[from..].split("</p>").next().unwrap().to_owned()
+    };
+    let (before, after) = (sentence(&whole), sentence(&partial));
+    assert_eq!(after, format!("{before} Left out: 6 trials that some of the cells of their level lack."));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! An append-only file of records, each with its length and checksum. Whatever stops the writer, the records before the
-//! one in work can be read; a torn tail is cut off when the log is opened again.
+//! one in work can be read; a torn tail is cut off when the log is opened again. A damaged record with whole ones after it
+//! is no torn tail: such a log is refused, lest those be lost without a word.
 
 use crate::StoreError;
 use std::fs::{File, OpenOptions};
@@ -11,6 +12,8 @@ use twox_hash::XxHash64;
 const MARK: [u8; 8] = *b"flklog\0\x01";
 /// Kind, length, checksum.
 const HEAD: usize = 4 + 8 + 8;
+/// How far after a damaged record a whole one is looked for, and how long it may be.
+const SEARCHED: u64 = 1 << 20;
 
 /// A record's place in a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +48,7 @@ impl Log {
     /// Opens a log and lists its whole records; what follows them is a torn tail.
     ///
     /// # Errors
-    /// Where the system refuses, or the file is no log.
+    /// Where the system refuses, the file is no log, or a record is damaged that whole ones follow.
     pub fn open(path: &Path) -> Result<(Self, Vec<Record>), StoreError> {
         Self::listed(path, OpenOptions::new().read(true).write(true))
     }
@@ -77,7 +80,7 @@ impl Log {
         read.map_err(|error| StoreError::io("read", path, error))?;
         if mark.len() < MARK.len() && MARK.starts_with(&mark) {
             // it was stopped before its first record
-            return Ok((Self::create(path)?, Vec::new()));
+            return Ok((Self { path: path.to_owned(), file, end: 0 }, Vec::new()));
         }
         if mark != MARK {
             return Err(StoreError::Damaged(format!("`{}` is no log of this program", path.display())));
@@ -98,6 +101,16 @@ impl Log {
             records.push(Record { kind, from: end + HEAD as u64, length });
             end += HEAD as u64 + length;
         }
+        drop(reader);
+        let followed = whole_after(&mut &file, end, size).map_err(|error| StoreError::io("read", path, error))?;
+        if followed {
+            return Err(StoreError::Damaged(format!(
+                "`{}` is damaged at byte {end}, after {} whole records and before others: take it from a copy, or cut it off \
+                 there (truncate --size {end}) to have what follows computed again",
+                path.display(),
+                records.len(),
+            )));
+        }
         Ok((Self { path: path.to_owned(), file, end }, records))
     }
     /// Cuts off everything after a record (everything, for none).
@@ -105,7 +118,13 @@ impl Log {
     /// # Errors
     /// Where the system refuses.
     pub fn keep_until(&mut self, record: Option<&Record>) -> Result<(), StoreError> {
-        self.end = record.map_or(MARK.len() as u64, |record| record.from + record.length);
+        let keep = record.map_or(MARK.len() as u64, |record| record.from + record.length);
+        if self.end == 0 {
+            // it was stopped while its mark was written
+            let rewound = self.file.seek(SeekFrom::Start(0)).and_then(|_| self.file.write_all(&MARK));
+            rewound.map_err(|error| StoreError::io("write", &self.path, error))?;
+        }
+        self.end = keep;
         self.file.set_len(self.end).map_err(|error| StoreError::io("shorten", &self.path, error))
     }
     /// Appends a record.
@@ -145,6 +164,46 @@ impl Log {
         }
         Ok(payload)
     }
+}
+
+/// Whether a whole record begins somewhere after a place where none does.
+fn whole_after(file: &mut (impl Read + Seek), from: u64, size: u64) -> std::io::Result<bool> {
+    // the damaged record and one after it
+    let mut bytes = Vec::new();
+    file.seek(SeekFrom::Start(from))?;
+    file.take(2 * SEARCHED).read_to_end(&mut bytes)?;
+    // checksums cost their length: of what looks like heads in a long tail, not all can be tried
+    let mut budget = 64 * SEARCHED;
+    let starts = bytes.windows(HEAD).enumerate().skip(1).take(SEARCHED as usize);
+    for (at, head) in starts {
+        let (kind, length, sum) = split(&core::array::from_fn(|k| head[k]));
+        let Some(payload) = usize::try_from(length).ok().and_then(|length| bytes.get(at + HEAD..)?.get(..length))
+        else {
+            continue;
+        };
+        if kind > u32::from(u16::MAX) || length > budget {
+            continue;
+        }
+        budget -= length;
+        if checksum(kind, payload) == sum {
+            return Ok(true);
+        }
+    }
+    // a long record whose bytes are damaged, not its head
+    let mut head = [0; HEAD];
+    let Some(whole) = bytes.get(..HEAD) else { return Ok(false) };
+    head.copy_from_slice(whole);
+    let next = (HEAD as u64).checked_add(split(&head).1).and_then(|length| from.checked_add(length));
+    let Some(next) = next.filter(|next| next + HEAD as u64 <= size) else { return Ok(false) };
+    file.seek(SeekFrom::Start(next))?;
+    file.read_exact(&mut head)?;
+    let (kind, length, sum) = split(&head);
+    if length > size - next - HEAD as u64 {
+        return Ok(false);
+    }
+    let mut payload = Vec::new();
+    file.take(length).read_to_end(&mut payload)?;
+    Ok(checksum(kind, &payload) == sum)
 }
 
 fn split(head: &[u8; HEAD]) -> (u32, u64, u64) {
@@ -198,7 +257,9 @@ mod tests {
         let path = place("begun");
         for length in 0..MARK.len() {
             std::fs::write(&path, &MARK[..length]).unwrap();
-            let (mut log, records) = Log::open(&path).unwrap();
+            assert!(Log::open_to_read(&path).unwrap().1.is_empty());
+            assert_eq!(std::fs::read(&path).unwrap(), MARK[..length], "who only reads changes nothing");
+            let (mut log, records) = Log::resume(&path).unwrap();
             assert!(records.is_empty());
             log.append(1, b"x").unwrap();
             assert_eq!(Log::open(&path).unwrap().1.len(), 1);
@@ -218,9 +279,36 @@ mod tests {
             let mut damaged = whole.clone();
             damaged[byte] ^= 4;
             std::fs::write(&path, damaged).unwrap();
-            if let Ok((_, records)) = Log::open(&path) {
-                assert!(records.len() < 2, "byte {byte}");
+            match Log::open(&path) {
+                // the last one cannot be told from one that was being written
+                Ok((_, records)) => assert!(records.len() == 1 && byte >= MARK.len() + HEAD + 5, "byte {byte}"),
+                Err(StoreError::Damaged(what)) if byte >= MARK.len() => assert!(what.contains("byte 8"), "{what}"),
+                Err(_) => assert!(byte < MARK.len()),
             }
+        }
+    }
+
+    #[test]
+    fn whole_records_after_a_damaged_one_are_not_dropped() {
+        let path = place("inside");
+        for length in [10, 3 * SEARCHED as usize] {
+            let mut log = Log::create(&path).unwrap();
+            log.append(1, b"first").unwrap();
+            let long = log.append(2, &vec![7; length]).unwrap();
+            log.append(3, b"third").unwrap();
+            let mut bytes = std::fs::read(&path).unwrap();
+            bytes[long.from as usize + length / 2] ^= 1;
+            std::fs::write(&path, &bytes).unwrap();
+            for opened in [Log::open(&path), Log::open_to_read(&path), Log::resume(&path)] {
+                let what = opened.unwrap_err().to_string();
+                assert!(what.contains("after 1 whole records") && what.contains("truncate --size"), "{what}");
+            }
+            assert_eq!(std::fs::read(&path).unwrap(), bytes, "nothing is cut off");
+            // a tail of zeros is what a machine leaves that stopped while a file grew
+            bytes.truncate(long.from as usize + 4);
+            bytes.extend([0; 5000]);
+            std::fs::write(&path, &bytes).unwrap();
+            assert_eq!(Log::open(&path).unwrap().1.len(), 1);
         }
     }
 }

@@ -12,6 +12,7 @@ use lab::study::execute::{self, CELLS, End, REPORT, Selection, TRIALS};
 use lab::study::form::{Strength, Study as Form};
 use lab::study::{self, Plan, claims, trial};
 use serde_json::Value as Json;
+use space::spelling::nearest;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -33,7 +34,7 @@ pub struct StudyOptions {
     #[arg(long, value_name = "I/N")]
     pub shard: Option<String>,
     /// Run one trial of this cell as a scenario, with its trajectory: a number, or levels that only one cell has.
-    #[arg(long, value_name = "CELL")]
+    #[arg(long, value_name = "CELL", conflicts_with_all = ["plan", "cells", "trials", "shard", "must_hold"])]
     pub cell: Option<String>,
     /// The trial of `--cell`.
     #[arg(long, value_name = "N", requires = "cell")]
@@ -117,7 +118,8 @@ impl Kind for Study {
         if let Some(cell) = &own.cell {
             let (name, text) = scenario_of(&plan, cell, own.trial.unwrap_or(1))?;
             let single = Input { name, text, sets: Vec::new() };
-            return run::run_scenario(run::scenario(&single)?, options, out);
+            // seed and length are those of the trial, whatever chose it
+            return run::run_scenario(run::scenario(&single)?, &options.of_trial(), out);
         }
         let selection = Selection {
             cells: own.cells.as_ref().map(|text| cells(&plan, text)).transpose()?,
@@ -233,9 +235,11 @@ fn cells(plan: &Plan, text: &str) -> Result<Vec<usize>, Fault> {
         let Some((name, level)) = part.split_once('=') else {
             return wrong(format!("--cells takes levels as FACTOR=LEVEL; found `{part}`"));
         };
-        let level = level.trim().trim_matches('\'');
-        let level = level.parse().map_or_else(|_| claims::Level::Text(level.to_owned()), claims::Level::Number);
-        only.push((name.trim().to_owned(), level));
+        let (name, level) = (name.trim(), level.trim().trim_matches('\''));
+        unknown(plan, name, level)?;
+        let number = level.parse().ok().filter(|number: &f64| number.is_finite());
+        let level = number.map_or_else(|| claims::Level::Text(level.to_owned()), claims::Level::Number);
+        only.push((name.to_owned(), level));
     }
     let found: Vec<usize> = plan.parts.iter().flat_map(|part| claims::matching(plan, part, &only)).collect();
     if found.is_empty() {
@@ -248,6 +252,29 @@ fn cells(plan: &Plan, text: &str) -> Result<Vec<usize>, Fault> {
         return wrong(format!("no cell has `{text}`; the factors and their levels are\n  {}", known.join("\n  ")));
     }
     Ok(found)
+}
+
+/// Whether a factor and a level of it are in the study.
+fn unknown(plan: &Plan, name: &str, level: &str) -> Result<(), Fault> {
+    let mut own = plan.parts.iter().flat_map(|part| &part.factors).filter(|factor| factor.name == name).peekable();
+    let suggestion = |near: Option<&str>| near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    if own.peek().is_none() {
+        let names = plan.parts.iter().flat_map(|part| &part.factors).map(|factor| factor.name.as_str());
+        return wrong(format!("--cells: no factor is called `{name}`{}", suggestion(nearest(name, names))));
+    }
+    let levels: Vec<&study::plan::Varied> = own.collect();
+    let number: Option<f64> = level.parse().ok();
+    let levels = || levels.iter().flat_map(|factor| &factor.levels);
+    if levels().any(|other| other.text == level || (number.is_some() && other.number == number)) {
+        return Ok(());
+    }
+    let texts = || levels().map(|level| level.text.as_str());
+    // a number is nobody's slip of a key
+    let help = match nearest(level, texts()).filter(|_| number.is_none()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("it has {}", texts().collect::<Vec<_>>().join(", ")),
+    };
+    wrong(format!("--cells: `{name}` has no level `{level}`; {help}"))
 }
 
 fn shard(text: &str) -> Result<(usize, usize), Fault> {

@@ -11,12 +11,16 @@ use super::form::{Claim, Figure, Test};
 use super::plan::{Part, Plan, within};
 use super::tables::{RESERVED, of_cell};
 use crate::file::{Anything, Desk, Named, Node, Sources, Tree};
+use crate::report::short;
+use core::cell::{Cell, RefCell};
 use core::ops::Range;
 use space::random::{Purpose, uniform};
 use space::spelling::nearest;
+use std::collections::HashMap;
+use std::rc::Rc;
 
 /// Times that the trials are drawn again.
-const DRAWINGS: usize = 400;
+pub(super) const DRAWINGS: usize = 2000;
 /// What an interval leaves out on each side.
 const OUTSIDE: f64 = 0.025;
 
@@ -29,6 +33,8 @@ pub enum Verdict {
     DoesNotHold,
     /// It cannot be judged, for this reason.
     CannotBeJudged(String),
+    /// Its numbers are reported; nothing was said of when it holds.
+    Reported,
 }
 
 impl Verdict {
@@ -38,6 +44,7 @@ impl Verdict {
             Self::Holds => "holds",
             Self::DoesNotHold => "does not hold",
             Self::CannotBeJudged(_) => "cannot be judged",
+            Self::Reported => "reported only",
         }
     }
 }
@@ -91,6 +98,16 @@ pub enum Level {
     Text(String),
 }
 
+impl Level {
+    /// As a page has it.
+    pub fn words(&self) -> String {
+        match self {
+            Self::Number(number) => short(*number),
+            Self::Text(text) => text.clone(),
+        }
+    }
+}
+
 /// The levels that a table of a file asks for.
 pub fn asked(only: &Named<Anything>) -> Vec<(String, Level)> {
     let level = |(name, value): &(String, Anything)| {
@@ -112,6 +129,9 @@ struct Data<'a> {
 }
 
 impl Names for Data<'_> {
+    fn judges(&self) -> bool {
+        true
+    }
     fn value(&self, name: &str, selectors: &[Selector], bytes: &Range<usize>) -> Result<Value, Mistake> {
         // a name of another part has the part before it: exp1.coverage
         if let Some((part, below)) = name.split_once('.')
@@ -239,7 +259,9 @@ pub(super) fn check_claims(
                 let what = || format!("`{key}` must give {wanted}, found {}", value.describe());
                 if fits { Ok(()) } else { Err(Mistake::new(0..text.len(), what())) }
             });
-            if let Err(mistake) = value {
+            if let Err(mistake) = value
+                && !mistake.of_numbers
+            {
                 let place = within(sources, &tree.place(&format!("claim.{k}.{key}")), &mistake.bytes);
                 desk.problem(&place, format!("`{}`: {}", claim.id, mistake.what), "", mistake.help);
             }
@@ -300,47 +322,49 @@ impl Drawings {
     }
 }
 
+/// What an expression comes to; none where there is no expression.
+fn evaluated(expression: &Option<Result<Expression, Mistake>>, data: &Data<'_>) -> Option<Result<Value, Mistake>> {
+    let expression = expression.as_ref()?.as_ref();
+    Some(expression.map_err(Clone::clone).and_then(|expression| expression.value(data)))
+}
+
 /// Judges a statement of a part.
 pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawings: &Drawings) -> Judged {
-    // trials of a cell as columns, made once
+    // what a reading is in the trials of a cell; each is asked for once a drawing
+    let columns: RefCell<HashMap<(usize, usize), Rc<[(usize, f64)]>>> = RefCell::default();
     let values = |cell: usize, reading: usize| {
-        of_cell(plan, results, cell).map(move |(trial, values)| (trial, values[reading])).filter(|(_, v)| v.is_finite())
+        let made = || of_cell(plan, results, cell).map(|(trial, values)| (trial, values[reading]));
+        let mut columns = columns.borrow_mut();
+        Rc::clone(columns.entry((cell, reading)).or_insert_with(|| made().filter(|(_, v)| v.is_finite()).collect()))
     };
+    // the trials of the cell, of those it is about, that has fewest
+    let fewest = Cell::new(usize::MAX);
     let mean = |cell: usize, reading: usize| {
-        let (sum, count) = values(cell, reading).fold((0.0, 0.0), |(sum, count), (_, v)| (sum + v, count + 1.0));
+        let values = values(cell, reading);
+        fewest.set(fewest.get().min(values.len()));
+        let (sum, count) = values.iter().fold((0.0, 0.0), |(sum, count), (_, v)| (sum + v, count + 1.0));
         (count > 0.0).then(|| sum / count)
     };
     let data = Data { plan, part, mean: &mean };
     let parsed = |text: &Option<String>| text.as_ref().map(|text| Expression::parse(text));
     let (number_of, holds) = (parsed(&claim.number), parsed(&claim.holds));
-    let evaluated = |expression: &Option<Result<Expression, Mistake>>, data: &Data<'_>| {
-        let expression = expression.as_ref()?.as_ref();
-        Some(expression.map_err(Clone::clone).and_then(|expression| expression.value(data)))
-    };
     let number = match evaluated(&number_of, &data) {
         Some(Ok(value)) => numbers(&value).unwrap_or_default(),
         _ => Vec::new(),
     };
-    let truth = match evaluated(&holds, &data) {
-        None => Err("nothing was said of when it holds".to_owned()),
-        Some(Ok(value)) => value.truth().ok_or_else(|| "it is neither true nor false".to_owned()),
-        Some(Err(mistake)) => Err(mistake.what),
-    };
-    // of the parts that it is about
-    let asked = number_of.iter().chain(&holds).filter_map(|expression| expression.as_ref().ok());
-    let names: Vec<&str> = asked.flat_map(Expression::names).collect();
-    let parts = names.iter().map(|name| {
-        let named = name.split_once('.').and_then(|(own, _)| plan.parts.iter().find(|part| part.name == own));
-        named.unwrap_or(part)
+    let truth = evaluated(&holds, &data).map(|value| match value {
+        Ok(value) => value.truth().ok_or_else(|| "it is neither true nor false".to_owned()),
+        Err(mistake) => Err(mistake.what),
     });
-    let cells = parts.flat_map(|part| part.cells.clone());
-    let fewest = cells.map(|cell| of_cell(plan, results, cell).count()).min().unwrap_or(0);
-    let (mut drawn, mut held) = (vec![Vec::new(); number.len()], 0.0);
+    let (mut drawn, mut told, mut held) = (vec![Vec::new(); number.len()], 0.0, 0.0);
     for counts in drawings.counts.iter().filter(|_| !claim.exact) {
         let mean = |cell: usize, reading: usize| {
-            let weighted = values(cell, reading).map(|(trial, v)| (v, counts.get(trial - 1).copied().unwrap_or(0.0)));
-            let (sum, count) =
-                weighted.fold((0.0, 0.0), |(sum, count), (v, weight)| (sum + v * weight, count + weight));
+            let (mut sum, mut count) = (0.0, 0.0);
+            for &(trial, v) in values(cell, reading).iter() {
+                let weight = counts.get(trial - 1).copied().unwrap_or(0.0);
+                sum += v * weight;
+                count += weight;
+            }
             if count > 0.0 { Some(sum / count) } else { mean(cell, reading) }
         };
         let data = Data { plan, part, mean: &mean };
@@ -348,26 +372,36 @@ pub fn judge(plan: &Plan, results: &Results, part: &Part, claim: &Claim, drawing
             numbers(&value).unwrap_or_default().into_iter().zip(&mut drawn).for_each(|(x, list)| list.push(x));
         }
         if let Some(Ok(value)) = evaluated(&holds, &data)
-            && value.truth() == Some(true)
+            && let Some(truth) = value.truth()
         {
-            held += 1.0;
+            told += 1.0;
+            held += if truth { 1.0 } else { 0.0 };
         }
     }
-    let share = held / drawings.counts.len().max(1) as f64;
+    // drawings in which it is neither true nor false say nothing
+    let all = drawings.counts.len() as f64;
+    let share = if told > 0.0 { held / told } else { 0.0 };
     let verdict = match truth {
-        Err(what) => Verdict::CannotBeJudged(what),
-        Ok(true) if claim.exact => Verdict::Holds,
-        Ok(false) if claim.exact => Verdict::DoesNotHold,
-        Ok(_) if fewest < 2 => Verdict::CannotBeJudged("a single trial says nothing of how sure it is".to_owned()),
-        Ok(true) if share >= 1.0 - claim.doubt => Verdict::Holds,
-        Ok(false) if share <= claim.doubt => Verdict::DoesNotHold,
-        Ok(truth) => {
+        None => Verdict::Reported,
+        Some(Err(what)) => Verdict::CannotBeJudged(what),
+        Some(Ok(true)) if claim.exact => Verdict::Holds,
+        Some(Ok(false)) if claim.exact => Verdict::DoesNotHold,
+        Some(Ok(_)) if fewest.get() < 2 => {
+            Verdict::CannotBeJudged("a single trial says nothing of how sure it is".to_owned())
+        }
+        Some(Ok(_)) if told < all * (1.0 - claim.doubt) => {
+            let silent = 100.0 * (1.0 - told / all);
+            Verdict::CannotBeJudged(format!("it has no value in {silent:.0} % of the drawings"))
+        }
+        Some(Ok(true)) if share >= 1.0 - claim.doubt => Verdict::Holds,
+        Some(Ok(false)) if share <= claim.doubt => Verdict::DoesNotHold,
+        Some(Ok(truth)) => {
             let is = if truth { "true" } else { "false" };
             let what = format!("{is} of the means, but true in {:.0} % of the drawings", 100.0 * share);
             Verdict::CannotBeJudged(what)
         }
     };
-    let judged = claim.holds.is_some() && !claim.exact && !drawings.counts.is_empty();
+    let judged = claim.holds.is_some() && !claim.exact && told > 0.0;
     let interval = if claim.exact { Vec::new() } else { drawn.iter_mut().map(middle).collect() };
     Judged { number, interval, verdict, share: judged.then_some(share) }
 }

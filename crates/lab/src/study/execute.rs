@@ -230,23 +230,28 @@ pub fn run(
 /// # Errors
 /// Where they are of different studies, or contradict each other, or the system refuses.
 pub fn merge(from: &[PathBuf], out: &Path, program: &str) -> Result<(Plan, usize, usize), StoreError> {
-    let mut plan: Option<Plan> = None;
-    let mut joined: Results = Vec::new();
+    let mut folders = Vec::new();
     for path in from {
         let manifest = folder::manifest(path)?.unwrap_or(Json::Null);
-        let own = of_folder(path)?;
-        let (_, results) = logged(&path.join(RESULTS), &own)?;
-        let Some(plan) = &plan else {
-            plan = Some(own);
-            joined = results;
-            continue;
-        };
-        let lines = differences(plan, &manifest);
+        let plan = of_folder(path)?;
+        let (_, results) = logged(&path.join(RESULTS), &plan)?;
+        folders.push((path, manifest, plan, results));
+    }
+    // cells and trials may have been added to some: the others' are among those of the largest, whatever the order
+    let size = |plan: &Plan| (plan.cells.len(), Selection::default().units(plan).len());
+    let largest = (0..folders.len()).rev().max_by_key(|&k| size(&folders[k].2));
+    let Some(plan) = largest.map(|k| folders[k].2.clone()) else {
+        return Err(StoreError::Refused("nothing to merge".into()));
+    };
+    let places: HashMap<[u64; 2], usize> = plan.conditions.iter().enumerate().map(|(k, c)| (c.key, k)).collect();
+    let mut joined: Results = vec![BTreeMap::new(); plan.conditions.len()];
+    for (path, manifest, own, results) in folders {
+        let lines = differences(&plan, &manifest);
         if !lines.is_empty() {
             return Err(refused(path, lines));
         }
         for (condition, trials) in own.conditions.iter().zip(results) {
-            let Some(at) = plan.conditions.iter().position(|other| other.key == condition.key) else { continue };
+            let Some(&at) = places.get(&condition.key) else { continue };
             for (trial, values) in trials {
                 match joined[at].get(&trial) {
                     Some(there) if !same(there, &values) => {
@@ -258,7 +263,6 @@ pub fn merge(from: &[PathBuf], out: &Path, program: &str) -> Result<(Plan, usize
             }
         }
     }
-    let Some(plan) = plan else { return Err(StoreError::Refused("nothing to merge".into())) };
     let folder = Folder::claim(out)?;
     if let Some(manifest) = folder::manifest(out)? {
         let lines = differences(&plan, &manifest);
@@ -300,7 +304,8 @@ pub fn merge(from: &[PathBuf], out: &Path, program: &str) -> Result<(Plan, usize
 pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
     let plan = of_folder(path)?;
     let folder = Folder::claim(path)?;
-    let (_, results) = opened(&folder, &plan)?;
+    // without its log there is nothing to make it from, and what was made is better than nothing
+    let (_, results) = logged(&folder.file(RESULTS), &plan)?;
     finish(&folder, &plan, &results, program).map(|_| ())
 }
 
@@ -319,10 +324,9 @@ fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, Results), StoreError> {
     Ok((log, results))
 }
 
-/// The log with what it holds of the plan's conditions. A torn tail is cut off.
+/// The log of a folder, which is only read, with what it holds of the plan's conditions.
 fn logged(path: &Path, plan: &Plan) -> Result<(Log, Results), StoreError> {
-    let (mut log, records) = Log::open(path)?;
-    log.keep_until(records.last())?;
+    let (mut log, records) = Log::open_to_read(path)?;
     let results = known(&mut log, &records, path, plan)?;
     Ok((log, results))
 }
@@ -338,8 +342,7 @@ pub fn look(path: &Path) -> Result<(Plan, Results), StoreError> {
         let nothing = vec![BTreeMap::new(); plan.conditions.len()];
         return Ok((plan, nothing));
     }
-    let (mut log, records) = Log::open_to_read(&path)?;
-    let results = known(&mut log, &records, &path, &plan)?;
+    let (_, results) = logged(&path, &plan)?;
     Ok((plan, results))
 }
 

@@ -55,12 +55,14 @@ pub struct Mistake {
     pub what: String,
     /// What would help; may be empty.
     pub help: String,
+    /// Whether the expression is right, and only the numbers at hand give it no value.
+    pub of_numbers: bool,
 }
 
 impl Mistake {
     /// Something wrong at a place.
     pub fn new(bytes: Range<usize>, what: impl Into<String>) -> Self {
-        Self { bytes, what: what.into(), help: String::new() }
+        Self { bytes, what: what.into(), help: String::new(), of_numbers: false }
     }
 }
 
@@ -82,6 +84,10 @@ pub trait Names {
     /// # Errors
     /// A name that is not known, or conditions that nothing fulfils.
     fn value(&self, name: &str, selectors: &[Selector], bytes: &Range<usize>) -> Result<Value, Mistake>;
+    /// Whether comparing what is no finite number is a mistake, and not merely untrue: of a statement neither truth can be told then.
+    fn judges(&self) -> bool {
+        false
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -187,12 +193,6 @@ impl Expression {
     /// What has no value, at its place.
     pub fn value(&self, names: &dyn Names) -> Result<Value, Mistake> {
         self.root.value(names)
-    }
-    /// The names it uses, each once.
-    pub fn names(&self) -> Vec<&str> {
-        let mut names = Vec::new();
-        self.root.names(&mut names);
-        names
     }
 }
 
@@ -506,22 +506,6 @@ impl Parser<'_> {
 }
 
 impl Part {
-    fn names<'a>(&'a self, to: &mut Vec<&'a str>) {
-        match &self.node {
-            Node::Constant(_) => {}
-            Node::Name(name, _) => {
-                if !to.contains(&name.as_str()) {
-                    to.push(name);
-                }
-            }
-            Node::List(parts) | Node::Call(_, parts) => parts.iter().for_each(|part| part.names(to)),
-            Node::Negative(part) | Node::Not(part) => part.names(to),
-            Node::Binary(_, left, right) => {
-                left.names(to);
-                right.names(to);
-            }
-        }
-    }
     fn value(&self, names: &dyn Names) -> Result<Value, Mistake> {
         match &self.node {
             Node::Constant(value) => Ok(value.clone()),
@@ -531,7 +515,7 @@ impl Part {
             Node::Not(part) => each(&part.value(names)?, &|x| Ok(Value::Truth(!part.truth(x)?))),
             Node::Binary(operator, left, right) => {
                 let (a, b) = (left.value(names)?, right.value(names)?);
-                self.pairs(*operator, left, right, &a, &b)
+                self.pairs((*operator, names.judges()), left, right, &a, &b)
             }
             Node::Call(name, parts) => self.call(name, parts, names),
         }
@@ -547,7 +531,14 @@ impl Part {
         }
         Err(Mistake::new(self.bytes.clone(), format!("true or false is needed here, found {}", value.describe())))
     }
-    fn pairs(&self, operator: Operator, left: &Part, right: &Part, a: &Value, b: &Value) -> Result<Value, Mistake> {
+    fn pairs(
+        &self,
+        operator: (Operator, bool),
+        left: &Part,
+        right: &Part,
+        a: &Value,
+        b: &Value,
+    ) -> Result<Value, Mistake> {
         match (a, b) {
             (Value::List(a), Value::List(b)) => {
                 if a.len() != b.len() {
@@ -566,11 +557,31 @@ impl Part {
             (a, b) => self.pair(operator, left, right, a, b),
         }
     }
-    fn pair(&self, operator: Operator, left: &Part, right: &Part, a: &Value, b: &Value) -> Result<Value, Mistake> {
+    /// Refuses to compare what is not a number: neither truth would be one.
+    fn compares(&self, left: &Part, right: &Part, a: &Value, b: &Value) -> Result<(), Mistake> {
+        for (part, value) in [(left, a), (right, b)] {
+            if value.number().is_some_and(|number| !number.is_finite()) {
+                let what = "this has no value (divided by zero, or a statistic of numbers that are all alike)";
+                return Err(Mistake { of_numbers: true, ..Mistake::new(part.bytes.clone(), what) });
+            }
+        }
+        Ok(())
+    }
+    fn pair(
+        &self,
+        (operator, judges): (Operator, bool),
+        left: &Part,
+        right: &Part,
+        a: &Value,
+        b: &Value,
+    ) -> Result<Value, Mistake> {
         Ok(match operator {
             Operator::And => Value::Truth(left.truth(a)? & right.truth(b)?),
             Operator::Or => Value::Truth(left.truth(a)? | right.truth(b)?),
             Operator::Equal | Operator::Unequal => {
+                if judges {
+                    self.compares(left, right, a, b)?;
+                }
                 let alike = core::mem::discriminant(a) == core::mem::discriminant(b);
                 if !alike {
                     let what = format!("{} and {} cannot be compared", a.describe(), b.describe());
@@ -579,6 +590,11 @@ impl Part {
                 Value::Truth((a == b) == (operator == Operator::Equal))
             }
             _ => {
+                let comparison =
+                    matches!(operator, Operator::Less | Operator::AtMost | Operator::More | Operator::AtLeast);
+                if judges && comparison {
+                    self.compares(left, right, a, b)?;
+                }
                 let (a, b) = (left.number(a)?, right.number(b)?);
                 match operator {
                     Operator::Less => Value::Truth(a < b),
@@ -752,6 +768,9 @@ mod tests {
 
     struct Known;
     impl Names for Known {
+        fn judges(&self) -> bool {
+            true
+        }
         fn value(&self, name: &str, selectors: &[Selector], bytes: &Range<usize>) -> Result<Value, Mistake> {
             match (name, selectors) {
                 ("g", []) => Ok(Value::Number(50.0)),
@@ -832,6 +851,10 @@ mod tests {
             ("sqrt(1, 2)", "takes 1 values, found 2", "sqrt(1, 2)"),
             ("c[M 3]", "expected `=`", "3"),
             ("variant = 1", "cannot be compared", "variant = 1"),
+            ("not 0/0 > 2", "has no value", "0/0"),
+            ("1 != 0/0", "has no value", "0/0"),
+            ("1/0 > 2", "has no value", "1/0"),
+            ("rank_correlation(M, [1, 1, 1]) < 0", "has no value", "rank_correlation(M, [1, 1, 1])"),
             ("c + [1, 2]", "no common ones", "c + [1, 2]"),
             ("'open", "not closed", "'open"),
             ("1.2.3", "is no number", "1.2.3"),

@@ -116,6 +116,10 @@ form! {
         scale: f64 = [1.0], "", Any;
         /// The group; left out, everyone.
         group: Option<String> = none, "", Any;
+        /// Counts looks instead: 1 where the metric is at least this, else 0. With `statistic = "last"` the reading is whether a trial ends so.
+        at_least: Option<f64> = none, "", Any;
+        /// Counts looks instead: 1 where the metric is at most this, else 0.
+        at_most: Option<f64> = none, "", Any;
         /// What is made of its values.
         statistic: Statistic = [Statistic::Mean], "", Any;
     }

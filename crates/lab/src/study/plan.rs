@@ -17,6 +17,7 @@ use core::ops::Range;
 use serde_json::{Value as Json, json};
 use space::random::{Purpose, uniform};
 use space::spelling::nearest;
+use std::collections::{HashMap, HashSet};
 use twox_hash::XxHash64;
 
 /// A level of a factor.
@@ -39,6 +40,13 @@ pub struct Varied {
     pub unit: String,
     /// Its levels in the cells, in the order in which they first appear.
     pub levels: Vec<Level>,
+}
+
+impl Level {
+    /// What it is, to be looked up by.
+    fn key(&self) -> (String, Option<u64>) {
+        (self.text.clone(), self.number.map(f64::to_bits))
+    }
 }
 
 impl Varied {
@@ -180,7 +188,7 @@ pub type Load<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
 /// Everything that is wrong with it, at its place.
 pub fn read(name: &str, text: &str, sets: &[String], quick: bool, load: Load<'_>) -> Result<Plan, Problems> {
     let files = Files { sources: Sources::default(), desk: Desk::default(), load };
-    let mut reader = Reader { files, quick };
+    let mut reader = Reader { files, quick, conditions: HashMap::new() };
     let plan = reader.plan(name, text, sets);
     match plan {
         Some(mut plan) if reader.files.desk.problems.is_empty() => {
@@ -319,7 +327,18 @@ impl<'a> Files<'a> {
 struct Reader<'a> {
     files: Files<'a>,
     quick: bool,
+    /// The place of each condition of the plan, by its key.
+    conditions: HashMap<[u64; 2], usize>,
 }
+
+/// What a cell cannot vary, as no trial depends on it, and what is meant instead.
+const SAME_FOR_ALL: [(&str, &str); 5] = [
+    ("seed", "trial t has the seed of the study plus t, in every cell"),
+    ("title", ""),
+    ("about", ""),
+    ("record", "trials are not recorded; `--cell CELL --trial T` runs one and records it"),
+    ("measure", "what is read off a trial is said by [reading.NAME], which takes parameters"),
+];
 
 /// A part while it is read: its file, and what can be said of it before its cells are made.
 struct Raw {
@@ -424,6 +443,7 @@ impl Reader<'_> {
         let base = self.files.scenario(study.scenario.as_ref(), &study.title, &study.set.0, &start, "study")?;
         let defines = self.expressions("define", &study.define, raw)?;
         let derives = self.expressions("derive", &study.derive, raw)?;
+        self.vary(study, raw)?;
         let rows = self.rows(study, raw, plan.seed)?;
         let mut factors: Vec<Varied> = Vec::new();
         for (name, factor) in &study.factor.0 {
@@ -431,19 +451,21 @@ impl Reader<'_> {
             factors.push(Varied { name: name.clone(), about, unit: factor.unit.clone(), levels: Vec::new() });
         }
         let first = plan.cells.len();
+        let mut places: Vec<HashMap<(String, Option<u64>), usize>> = vec![HashMap::new(); factors.len()];
         // what the scenario says of itself with every default filled in, for expressions that name a path
         let defaults = build::read_tree(&base, &mut Desk::default())
             .map_or_else(|| base.clone(), |scenario| Node { tree: scenario.write(), span: base.span.clone() });
         for row in rows {
             let mut tree = base.clone();
             let mut levels = Vec::new();
-            for ((put, varied), (_, factor)) in row.iter().zip(&mut factors).zip(&study.factor.0) {
-                self.put_level(&mut tree, put, factor)?;
-                let at = varied.levels.iter().position(|level| *level == put.level).unwrap_or_else(|| {
+            for (((put, varied), (_, factor)), places) in
+                row.iter().zip(&mut factors).zip(&study.factor.0).zip(&mut places)
+            {
+                self.put_level(&mut tree, put, factor, raw)?;
+                levels.push(*places.entry(put.level.key()).or_insert_with(|| {
                     varied.levels.push(put.level.clone());
                     varied.levels.len() - 1
-                });
-                levels.push(at);
+                }));
             }
             let mut known: Vec<(String, Value)> = row.iter().map(|put| (put.factor.clone(), put.value())).collect();
             for (name, expression, place) in &defines {
@@ -502,7 +524,7 @@ impl Reader<'_> {
             let identity = scenario.write().json();
             let text = identity.to_string();
             let key = [0, 1].map(|seed| XxHash64::oneshot(seed, text.as_bytes()));
-            if let Some(at) = plan.conditions.iter().position(|condition| condition.key == key) {
+            if let Some(&at) = self.conditions.get(&key) {
                 let condition = &mut plan.conditions[at];
                 condition.trials = condition.trials.max(trials);
                 return Some(at);
@@ -514,6 +536,7 @@ impl Reader<'_> {
             let agents = scenario.group.0.iter().map(|(_, group)| group.count as u64).sum();
             let condition = Condition { scenario, tree: tree.clone(), identity, key, schedule, agents, trials };
             super::trial::check(&condition, plan, &raw.tree, &mut self.files.desk);
+            self.conditions.insert(key, plan.conditions.len());
             plan.conditions.push(condition);
             (self.files.desk.problems.len() == before).then(|| plan.conditions.len() - 1)
         });
@@ -569,11 +592,13 @@ impl Reader<'_> {
     }
     fn evaluated(&mut self, expression: &Expression, names: &Surroundings<'_>, place: &Span) -> Option<Value> {
         match expression.value(names) {
-            Ok(Value::Number(number)) if !number.is_finite() => {
-                self.files.desk.problem(place, format!("the expression gives {number}"), "a finite number", "");
-                None
-            }
-            Ok(value) => Some(value),
+            Ok(value) => match infinite(&value) {
+                Some(number) => {
+                    self.files.desk.problem(place, format!("the expression gives {number}"), "a finite number", "");
+                    None
+                }
+                None => Some(value),
+            },
             Err(mistake) => {
                 self.mistaken(&mistake, place);
                 None
@@ -585,14 +610,39 @@ impl Reader<'_> {
         self.files.desk.problem(&span, mistake.what.clone(), "", mistake.help.clone());
     }
 
+    /// Whether factors and derived values name what can differ from cell to cell.
+    fn vary(&mut self, study: &Study, raw: &Raw) -> Option<()> {
+        let mut named: Vec<(&str, Span)> = Vec::new();
+        for (name, factor) in &study.factor.0 {
+            named
+                .extend(factor.path.iter().map(|path| (path.as_str(), raw.tree.place(&format!("factor.{name}.path")))));
+            for (_, patch) in &factor.level.0 {
+                if let Tree::Table(entries) = &patch.0.tree {
+                    named.extend(entries.iter().map(|entry| (entry.key.as_str(), entry.span.clone())));
+                }
+            }
+        }
+        named.extend(study.derive.0.iter().map(|(path, _)| (path.as_str(), entry_place(&raw.tree, "derive", path))));
+        let before = self.files.desk.problems.len();
+        for (path, place) in named {
+            let head = path.split('.').next().unwrap_or(path);
+            if let Some((key, help)) = SAME_FOR_ALL.iter().find(|(key, _)| *key == head) {
+                let what = format!("`{key}` cannot differ between cells: no result of a trial depends on it");
+                self.files.desk.problem(&place, what, "not what varies", *help);
+            }
+        }
+        (self.files.desk.problems.len() == before).then_some(())
+    }
+
     /// Puts a level into the scenario of a cell.
-    fn put_level(&mut self, tree: &mut Node, put: &Put, factor: &Factor) -> Option<()> {
+    fn put_level(&mut self, tree: &mut Node, put: &Put, factor: &Factor, raw: &Raw) -> Option<()> {
         if let Some((_, patch)) = factor.level.0.iter().find(|(name, _)| *name == put.level.text) {
             return self.files.put(tree, &patch.0);
         }
         let Some(path) = &factor.path else { return Some(()) };
         if let Err(what) = tree.set(path, put.node.clone()) {
-            self.files.desk.problem(&put.node.span, format!("`{path}`: {what}"), "names no place in the scenario", "");
+            let place = raw.tree.place(&format!("factor.{}.path", put.factor));
+            self.files.desk.problem(&place, format!("`{path}`: {what}"), "names no place in the scenario", "");
             return None;
         }
         Some(())
@@ -633,37 +683,31 @@ impl Reader<'_> {
         };
         let mut levels: Vec<Vec<Put>> = Vec::new();
         for (name, factor) in factors {
+            let shares = |samples| draws(seed, name, samples, matches!(study.design, Design::LatinHypercube(_)));
             let own = match (drawn, &factor.range) {
-                (Some(samples), Some(range)) if range.len() == 2 && range[0] <= range[1] => {
-                    let stratified = matches!(study.design, Design::LatinHypercube(_));
-                    (0..samples)
-                        .map(|k| {
-                            Put::drawn(
-                                name,
-                                factor,
-                                (range[0], range[1]),
-                                draw(seed, name, k, stratified.then_some(samples)),
-                                &place(name),
-                            )
-                        })
-                        .collect()
-                }
-                (_, Some(range)) if range.len() != 2 || range[0] > range[1] => {
-                    self.files.desk.problem(&place(name), "range takes [least, greatest]", "two numbers in order", "");
+                (_, Some(range))
+                    if range.len() != 2 || !(range[0] <= range[1] && (range[1] - range[0]).is_finite()) =>
+                {
+                    let place = raw.tree.place(&format!("factor.{name}.range"));
+                    self.files.desk.problem(&place, "`range` takes [least, greatest]", "two numbers in order", "");
                     continue;
                 }
-                _ => {
+                (None, Some(_)) => {
+                    let place = raw.tree.place(&format!("factor.{name}.range"));
+                    let help = "give `values` or `steps`, or [design] random = { samples = 20 }";
+                    self.files.desk.problem(&place, "a range is for designs that draw", "nothing is drawn here", help);
+                    continue;
+                }
+                (Some(samples), Some(range)) => shares(samples)
+                    .into_iter()
+                    .map(|share| Put::drawn(name, factor, (range[0], range[1]), share, &place(name)))
+                    .collect(),
+                (drawn, None) => {
                     let own = self.levels(name, factor, &place(name))?;
+                    let pick = |share: f64| own[((share * own.len() as f64) as usize).min(own.len() - 1)].clone();
                     match drawn {
                         None => own,
-                        Some(samples) => {
-                            let stratified = matches!(study.design, Design::LatinHypercube(_));
-                            let pick = |k| {
-                                let share = draw(seed, name, k, stratified.then_some(samples));
-                                own[((share * own.len() as f64) as usize).min(own.len() - 1)].clone()
-                            };
-                            (0..samples).map(pick).collect()
-                        }
+                        Some(samples) => shares(samples).into_iter().map(pick).collect(),
                     }
                 }
             };
@@ -690,7 +734,10 @@ impl Reader<'_> {
         }
         let full = matches!(study.design, Design::Full(_));
         // a level that is there twice would count its trials twice
-        let twice = |own: &[Put]| (1..own.len()).find(|&k| own[..k].iter().any(|put| put.level == own[k].level));
+        let twice = |own: &[Put]| {
+            let mut there = HashSet::new();
+            own.iter().position(|put| !there.insert(put.level.key()))
+        };
         if let Some((at, k)) = (0..levels.len()).find_map(|at| Some((at, twice(&levels[at])?))).filter(|_| full) {
             let what = format!("`{}` has the level {} twice", factors[at].0, levels[at][k].level.text);
             self.files.desk.problem(&place(&factors[at].0), what, "each level once", "");
@@ -737,7 +784,10 @@ impl Reader<'_> {
                     let node = Node { tree: Tree::Text(text.clone()), span: place.clone() };
                     Put {
                         factor: name.to_owned(),
-                        level: Level { text: text.clone(), number: text.parse().ok() },
+                        level: Level {
+                            text: text.clone(),
+                            number: text.parse().ok().filter(|number: &f64| number.is_finite()),
+                        },
                         node,
                     }
                 };
@@ -759,6 +809,11 @@ impl Reader<'_> {
                 self.files.desk.problem(place, what, "not one of its values or steps", help);
                 return None;
             }
+        }
+        if let Some(put) = levels.iter().find(|put| put.level.number.is_some_and(|number| !number.is_finite())) {
+            let what = format!("the factor `{name}` has the level {}", put.level.text);
+            self.files.desk.problem(&put.node.span, what, "a finite number", "");
+            return None;
         }
         if levels.is_empty() {
             let what = format!("the factor `{name}` has no levels");
@@ -799,16 +854,32 @@ impl Put {
     }
 }
 
-/// A share of a factor's range for a sample. Of `parts` equal parts of the range, each sample has one to itself.
-fn draw(seed: u64, factor: &str, sample: usize, parts: Option<usize>) -> f64 {
+/// The number in a value that is not finite.
+fn infinite(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(number) => (!number.is_finite()).then_some(*number),
+        Value::List(list) => list.iter().find_map(infinite),
+        Value::Truth(_) | Value::Text(_) => None,
+    }
+}
+
+/// A share of a factor's range for each sample; `stratified`: of as many equal parts of the range, each sample has one to
+/// itself.
+fn draws(seed: u64, factor: &str, samples: usize, stratified: bool) -> Vec<f64> {
     let stream = XxHash64::oneshot(seed, factor.as_bytes());
-    let within = |k: usize| uniform(stream, Purpose::Search, k as u64, 0);
-    let Some(parts) = parts else { return within(sample) };
+    let within = (0..samples).map(|k| uniform(stream, Purpose::Search, k as u64, 0));
+    if !stratified {
+        return within.collect();
+    }
     // the part whose draw has the rank of the sample: a random order of the parts
-    let order = |k: usize| uniform(stream, Purpose::Search, k as u64, 1);
-    let own = order(sample);
-    let rank = (0..parts).filter(|&k| order(k) < own || (order(k) == own && k < sample)).count();
-    (rank as f64 + within(sample)) / parts as f64
+    let order: Vec<f64> = (0..samples).map(|k| uniform(stream, Purpose::Search, k as u64, 1)).collect();
+    let mut ranked: Vec<usize> = (0..samples).collect();
+    ranked.sort_by(|&a, &b| order[a].total_cmp(&order[b]));
+    let mut shares: Vec<f64> = within.collect();
+    for (rank, &sample) in ranked.iter().enumerate() {
+        shares[sample] = (rank as f64 + shares[sample]) / samples as f64;
+    }
+    shares
 }
 
 /// What expressions of a cell may name: factors, definitions, paths of its scenario.
@@ -918,7 +989,16 @@ pub(crate) fn usual_readings(scenario: &Scenario) -> Vec<(String, Reading)> {
         let known = |(name, _): &&(String, f64)| card.parameters.iter().any(|parameter| parameter.name == name);
         let parameters = Named(scenario.measure.parameters.0.iter().filter(known).cloned().collect());
         let statistic = Statistic::Mean;
-        let of = Quantity::Metric(MetricReading { id: id.clone(), parameters, scale: 1.0, group: None, statistic });
+        let of = MetricReading {
+            id: id.clone(),
+            parameters,
+            scale: 1.0,
+            group: None,
+            statistic,
+            at_least: None,
+            at_most: None,
+        };
+        let of = Quantity::Metric(of);
         add(id, card.title, scenario.units.of(card.unit), of);
     }
     for (_, group) in &scenario.group.0 {

@@ -1,7 +1,7 @@
 //! The page of a study: figures of means with their errors, statements with what the data say of them, tests as sentences
 //! for a paper, and every number behind them as a table.
 
-use super::claims::{self, Drawings, Judged, Judgement, Level, Verdict};
+use super::claims::{self, DRAWINGS, Drawings, Judged, Judgement, Level, Verdict};
 use super::execute::{Results, Selection};
 use super::form::{Claim, Figure as Wanted, Test};
 use super::plan::{Part, Plan, Varied};
@@ -15,6 +15,12 @@ use std::fmt::Write;
 const LEVEL: f64 = 0.05;
 /// Share of the drawings that may disagree with a statement that says nothing of it.
 const DOUBT: f64 = 0.025;
+/// Trials below which drawing them again tells of less doubt than there is.
+const FEW: usize = 10;
+/// How much less, of two means that are the same.
+const FEW_TRIALS: &str = " Here some cells have fewer than ten trials, and with so few the drawings are too sure: of two means that \
+     are the same a difference is then found in 12 % of studies with eight trials, 16 % with five, 24 % with three and 48 % with two, \
+     not in 5 %.";
 /// Cells that are listed in the page; all are in the table.
 const LISTED: usize = 300;
 
@@ -69,10 +75,15 @@ pub(crate) fn answers(plan: &Plan, results: &Results, judgements: &[Judgement]) 
     if !statements.is_empty() {
         let header = ["", "statement", "source", "strength", "ours", "95 % interval", "published", "verdict", "why"];
         let header: Vec<String> = header.iter().map(|&name| name.to_owned()).collect();
-        let about = "A statement holds where it is true of the means and of nearly every drawing of the trials, with \
-                     replacement, the same trials in all cells (bootstrap, 400 drawings, at most 2.5 % against it, \
-                     where nothing else is said).";
-        listings.push(Listing { title: "Statements".into(), about: about.into(), header, rows: statements });
+        let mut about = format!(
+            "A statement holds where it is true of the means and of nearly every drawing of the trials, with replacement, \
+             the same trials in all cells (bootstrap, {DRAWINGS} drawings, at most 2.5 % against it, where nothing else is \
+             said)."
+        );
+        if tried(plan, results).0 < FEW {
+            about += FEW_TRIALS;
+        }
+        listings.push(Listing { title: "Statements".into(), about, header, rows: statements });
     }
     if !test_rows.is_empty() {
         let names =
@@ -116,7 +127,7 @@ pub(crate) fn answers(plan: &Plan, results: &Results, judgements: &[Judgement]) 
 /// The page.
 pub fn page(plan: &Plan, results: &Results, judgements: &[Judgement], program: &str) -> Page {
     let Answers { figures, sentences, tables, facts } = answers(plan, results, judgements);
-    let mut methods = methods(plan);
+    let mut methods = methods(plan, results);
     methods.extend(sentences);
     let mut summary = summary(plan, results);
     summary.extend(facts);
@@ -178,10 +189,14 @@ fn held(judgements: &[Judgement]) -> Vec<Fact> {
         let all = judgements.iter().filter(|own| own.claim.strength == strength).count();
         if all > 0 {
             let text = format!(
-                "{} of {all} hold, {} do not, {} open",
+                "{} of {all} hold, {} do not, {} open{}",
                 of("holds"),
                 of("does not hold"),
-                of("cannot be judged")
+                of("cannot be judged"),
+                match of("reported only") {
+                    0 => String::new(),
+                    some => format!(", {some} reported only"),
+                }
             );
             facts.push(fact(&format!("Statements, strength {}", strength.word()), text));
         }
@@ -189,12 +204,23 @@ fn held(judgements: &[Judgement]) -> Vec<Fact> {
     facts
 }
 
-fn methods(plan: &Plan) -> Vec<String> {
-    let trials: Vec<usize> = plan.cells.iter().map(|cell| cell.trials).collect();
-    let (least, most) = (trials.iter().min().copied().unwrap_or(0), trials.iter().max().copied().unwrap_or(0));
-    let trials = if least == most { least.to_string() } else { format!("{least} to {most}") };
+/// The least and the greatest number of trials that a cell has.
+fn tried(plan: &Plan, results: &Results) -> (usize, usize) {
+    let trials = || (0..plan.cells.len()).map(|cell| of_cell(plan, results, cell).count());
+    (trials().min().unwrap_or(0), trials().max().unwrap_or(0))
+}
+
+fn methods(plan: &Plan, results: &Results) -> Vec<String> {
+    let span = |least: usize, most: usize| if least == most { least.to_string() } else { format!("{least} to {most}") };
+    let wanted = || plan.cells.iter().map(|cell| cell.trials);
+    let wanted = span(wanted().min().unwrap_or(0), wanted().max().unwrap_or(0));
+    let (least, most) = tried(plan, results);
+    let trials = match span(least, most) {
+        trials if trials == wanted => format!("{trials} times"),
+        trials => format!("{trials} times (of {wanted} planned)"),
+    };
     let mut text = format!(
-        "Each of {} cells was tried {trials} times; trial t has the seed {} + t in every cell, so that trials of different \
+        "Each of {} cells was tried {trials}; trial t has the seed {} + t in every cell, so that trials of different \
          cells begin alike. Cells that come to the same scenario share their trials: {} conditions differ.",
         plan.cells.len(),
         plan.seed,
@@ -255,6 +281,7 @@ fn drawn(plan: &Plan, results: &Results, part: &Part, wanted: &Wanted) -> Vec<Fi
     let varied = &part.factors[x];
     let names: Vec<String> =
         if varied.numeric() { Vec::new() } else { varied.levels.iter().map(|level| level.text.clone()).collect() };
+    let fixed_at: String = only.iter().map(|(name, level)| format!("-{name}-{}", level.words())).collect();
     let several = wanted.y.len() > 1;
     let mut figures = Vec::new();
     for y in &wanted.y {
@@ -283,7 +310,7 @@ fn drawn(plan: &Plan, results: &Results, part: &Part, wanted: &Wanted) -> Vec<Fi
         let title =
             if several { format!("{}: {}", wanted.title, about_of(plan, reading)) } else { wanted.title.clone() };
         let lines = Lines {
-            id: format!("{}-{}-{}", part.name, y, wanted.x),
+            id: format!("{}-{y}-{}{fixed_at}", part.name, wanted.x),
             title,
             about: wanted.about.clone(),
             x: Axis { label: varied.about.clone(), unit: with_units(plan, &varied.unit), range: None },
@@ -317,6 +344,7 @@ fn statement(part: &str, claim: &super::form::Claim, judged: &Judged) -> Vec<Str
     let list = |numbers: Vec<String>| {
         if numbers.len() > 8 { format!("{}, ...", numbers[..8].join(", ")) } else { numbers.join(", ") }
     };
+    let span = |&(low, high): &(f64, f64)| format!("{} to {}", short(low), short(high));
     let why = match (&judged.verdict, judged.share) {
         (Verdict::CannotBeJudged(why), _) => why.clone(),
         (_, Some(share)) if claim.doubt == DOUBT => format!("true in {} of the drawings", percent(share)),
@@ -333,7 +361,7 @@ fn statement(part: &str, claim: &super::form::Claim, judged: &Judged) -> Vec<Str
         source,
         claim.strength.word().to_owned(),
         list(judged.number.iter().map(|&x| short(x)).collect()),
-        list(judged.interval.iter().map(|&(low, high)| format!("{} to {}", short(low), short(high))).collect()),
+        list(judged.interval.iter().filter(|(low, _)| !low.is_nan()).map(span).collect()),
         claim.published.clone(),
         judged.verdict.words().to_owned(),
         why,
@@ -356,11 +384,7 @@ fn compared(plan: &Plan, part: &Part, test: &Test) -> Vec<(String, Vec<usize>)> 
         only = only.iter().flat_map(with).collect();
     }
     let named = |only: &[(String, Level)]| {
-        let one = |(name, level): &(String, Level)| match level {
-            Level::Number(number) => format!("{name} = {}", short(*number)),
-            Level::Text(text) => format!("{name} = {text}"),
-        };
-        only.iter().map(one).collect::<Vec<_>>().join(", ")
+        only.iter().map(|(name, level)| format!("{name} = {}", level.words())).collect::<Vec<_>>().join(", ")
     };
     only.iter().map(|only| (named(only), claims::matching(plan, part, only))).collect()
 }
@@ -382,16 +406,21 @@ fn tested(
     let varied: &Varied = &part.factors[between];
     // all cells of a level together
     let mut levels: Vec<(usize, Vec<f64>, BTreeMap<usize, f64>)> = Vec::new();
+    let mut left_out = 0;
     for (k, _) in varied.levels.iter().enumerate() {
         let own: Vec<usize> = cells.iter().copied().filter(|&cell| plan.cells[cell].levels[between] == k).collect();
-        let mut trials: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+        let whole = own.len();
+        let mut trials: BTreeMap<usize, (f64, usize)> = BTreeMap::new();
         for cell in own {
             for (trial, value) in by_trial(plan, results, cell, reading).into_iter().filter(|(_, v)| v.is_finite()) {
                 let entry = trials.entry(trial).or_default();
-                *entry = (entry.0 + value, entry.1 + 1.0);
+                *entry = (entry.0 + value, entry.1 + 1);
             }
         }
-        let means: BTreeMap<usize, f64> = trials.into_iter().map(|(trial, (sum, n))| (trial, sum / n)).collect();
+        // a trial that some of the cells lack would be a mean of others
+        let (common, partial): (Vec<_>, Vec<_>) = trials.into_iter().partition(|(_, (_, n))| *n == whole);
+        left_out += partial.len();
+        let means: BTreeMap<usize, f64> = common.into_iter().map(|(trial, (sum, n))| (trial, sum / n as f64)).collect();
         if !means.is_empty() {
             levels.push((k, means.values().copied().collect(), means));
         }
@@ -417,7 +446,12 @@ fn tested(
     if let Some(blocked) = &in_blocks {
         let _ = write!(
             text,
-            " With trials as blocks, F({}, {}) = {}, {}, partial eta squared = {}.",
+            " With trials as blocks{}, F({}, {}) = {}, {}, partial eta squared = {}.",
+            if groups.iter().all(|group| group.len() == common.len()) {
+                String::new()
+            } else {
+                format!(" (the {} that all levels have)", common.len())
+            },
             short(blocked.effect.degrees),
             short(blocked.residual.degrees),
             short(blocked.effect.f),
@@ -425,6 +459,9 @@ fn tested(
             short(blocked.effect.partial_eta_squared(&blocked.residual))
         );
         text += &apart(blocked_pairs.as_ref(), &blocked.residual, &names);
+    }
+    if left_out > 0 {
+        let _ = write!(text, " Left out: {left_out} trials that some of the cells of their level lack.");
     }
     let rows = pairs.iter().flat_map(|pairs| &pairs.pairs).map(|pair| {
         let again = blocked_pairs.as_ref().and_then(|pairs| pairs.pair(pair.first, pair.second));
@@ -496,12 +533,19 @@ fn apart(pairs: Option<&PairComparison>, residual: &Residual, names: &[&str]) ->
     }
 }
 
+/// A probability as papers write it: never as 0 or 1, nor on the other side of the level.
 fn plain(p: f64) -> String {
-    if p < 0.001 { "< 0.001".to_owned() } else { format!("{p:.3}") }
+    match p {
+        p if p < 0.001 => "< 0.001".to_owned(),
+        p if p > 0.999 => "> 0.999".to_owned(),
+        p if p > LEVEL && p < LEVEL + 0.0005 => format!("{p:.4}"),
+        p => format!("{p:.3}"),
+    }
 }
 
 fn probability(p: f64) -> String {
-    if p < 0.001 { "p < 0.001".to_owned() } else { format!("p = {p:.3}") }
+    let plain = plain(p);
+    if plain.starts_with(['<', '>']) { format!("p {plain}") } else { format!("p = {plain}") }
 }
 
 /// The cells of a part with their means and errors, written short; readings that none of them has are left out.

@@ -298,7 +298,8 @@ fn reader<R: Scalar, const D: usize>(of: &Quantity, world: &World<R, D>) -> Resu
                 metric.set(name, *value).map_err(|error| error.to_string())?;
             }
             let group = group(reading.group.as_deref())?;
-            Box::new(OfMetric { metric, group, scale: reading.scale, values: Values::new(reading.statistic) })
+            let within = [reading.at_least, reading.at_most];
+            Box::new(OfMetric { metric, group, within, scale: reading.scale, values: Values::new(reading.statistic) })
         }
         Quantity::Inside(reading) => {
             corners::<D>(&reading.low, &reading.high)?;
@@ -461,6 +462,8 @@ impl Values {
 struct OfMetric<const D: usize> {
     metric: Box<dyn Measure<D>>,
     group: Option<usize>,
+    /// What it is at least and at most in looks that are counted; where neither is given the metric itself is read.
+    within: [Option<f64>; 2],
     scale: f64,
     values: Values,
 }
@@ -468,10 +471,16 @@ struct OfMetric<const D: usize> {
 impl<R: Scalar, const D: usize> Reader<R, D> for OfMetric<D> {
     fn look(&mut self, look: &Look<'_, R, D>) {
         if look.window {
-            self.values.add(match self.group {
+            let value = match self.group {
                 None => self.metric.on(&look.sample),
                 Some(group) => self.metric.on(&look.part(&look.members(Some(group)))),
-            });
+            };
+            let counted = |value: f64| {
+                let [low, high] = self.within;
+                let within = low.is_none_or(|low| value >= low) && high.is_none_or(|high| value <= high);
+                if within { 1.0 } else { 0.0 }
+            };
+            self.values.add(if self.within == [None; 2] { value } else { value.map(counted) });
         }
     }
     fn value(&self, _: &World<R, D>) -> Option<f64> {
