@@ -267,7 +267,7 @@ fn mistakes_are_shown_at_their_place() {
     ] {
         refused(&["run", &study, option, value], &[part]);
     }
-    refused(&["run", &study, "--cell", "1", "--cells", "2"], &["cannot be used with"]);
+    refused(&["run", &study, "--cell", "1", "--cells", "2"], &["`--cell <CELL>` cannot stand beside `--cells <CELLS>`"]);
 }
 
 #[test]
