@@ -99,7 +99,10 @@ fn stages_are_tried_alone_and_together() {
     }
     let page = std::fs::read_to_string(folder.join("one/report.html")).unwrap();
     assert!(page.contains("Each stage alone, and behind the others"));
-    assert!(page.contains("no body fits through from the entry of <code>one</code> to that of <code>two</code>"), "the reason is counted");
+    assert!(
+        page.contains("no body fits through from the entry of <code>one</code> to that of <code>two</code>"),
+        "the reason is counted"
+    );
     let told = done(&folder, &["run", "walkers.toml", "--set", "success=0.5", "--out", "half"]);
     assert!(told.contains("whole, group: 100.0 %") && told.contains("whole, group: alone 100.0 % (product)"), "{told}");
     let told = done(&folder, &["run", "walkers.toml", "--set", "success=0.51", "--out", "more"]);

@@ -267,7 +267,10 @@ fn mistakes_are_shown_at_their_place() {
     ] {
         refused(&["run", &study, option, value], &[part]);
     }
-    refused(&["run", &study, "--cell", "1", "--cells", "2"], &["`--cell <CELL>` cannot stand beside `--cells <CELLS>`"]);
+    refused(
+        &["run", &study, "--cell", "1", "--cells", "2"],
+        &["`--cell <CELL>` cannot stand beside `--cells <CELLS>`"],
+    );
 }
 
 #[test]
