@@ -165,6 +165,9 @@ pub(crate) fn time_left(elapsed: Duration, done: u64, to_do: u64) -> Option<Dura
     (done > 0).then(|| Duration::from_secs_f64(elapsed.as_secs_f64() * to_do as f64 / done as f64))
 }
 
+/// A bar over units of work, of which the message tells.
+pub(crate) const OF_UNITS: &str = "{bar:30} {percent:>3} %  {msg}  {left}";
+
 /// A bar on a terminal over `all` things, of which `from` were done before. Where `{left}` stands in the template is how long it
 /// will take at the mean pace of this session: that of `indicatif` takes what was there already for work of the first moment.
 pub(crate) fn bar(all: u64, from: u64, template: &str) -> ProgressBar {

@@ -174,9 +174,9 @@ fn whole_after(file: &mut (impl Read + Seek), from: u64, size: u64) -> std::io::
     file.take(2 * SEARCHED).read_to_end(&mut bytes)?;
     // checksums cost their length: of what looks like heads in a long tail, not all can be tried
     let mut budget = 64 * SEARCHED;
-    let starts = bytes.windows(HEAD).enumerate().skip(1).take(SEARCHED as usize);
-    for (at, head) in starts {
-        let (kind, length, sum) = split(&core::array::from_fn(|k| head[k]));
+    for at in 1..bytes.len().min(SEARCHED as usize) {
+        let Some(head) = bytes[at..].first_chunk::<HEAD>() else { break };
+        let (kind, length, sum) = split(head);
         let Some(payload) = usize::try_from(length).ok().and_then(|length| bytes.get(at + HEAD..)?.get(..length))
         else {
             continue;
@@ -190,11 +190,10 @@ fn whole_after(file: &mut (impl Read + Seek), from: u64, size: u64) -> std::io::
         }
     }
     // a long record whose bytes are damaged, not its head
-    let mut head = [0; HEAD];
-    let Some(whole) = bytes.get(..HEAD) else { return Ok(false) };
-    head.copy_from_slice(whole);
-    let next = (HEAD as u64).checked_add(split(&head).1).and_then(|length| from.checked_add(length));
+    let Some(head) = bytes.first_chunk::<HEAD>() else { return Ok(false) };
+    let next = (HEAD as u64).checked_add(split(head).1).and_then(|length| from.checked_add(length));
     let Some(next) = next.filter(|next| next + HEAD as u64 <= size) else { return Ok(false) };
+    let mut head = [0; HEAD];
     file.seek(SeekFrom::Start(next))?;
     file.read_exact(&mut head)?;
     let (kind, length, sum) = split(&head);

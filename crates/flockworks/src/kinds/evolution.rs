@@ -5,7 +5,7 @@ use super::{Input, Kind, shown};
 use crate::fault::{Fault, wrong};
 use crate::run::{self, INTERRUPTED, PROGRAM, QUIET, RunOptions, rate, text_of};
 use crate::view::ViewOptions;
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget};
 use lab::evolution::execute::{self, CHAMPION, REPORT};
 use lab::evolution::form::Evolution as Form;
 use lab::evolution::tables::{CANDIDATES, CHAMPIONS, CONTEST, GENERATIONS};
@@ -151,9 +151,7 @@ impl execute::Watch for Progress {
         let kept = if there > 0 { format!(", {there} are there already") } else { String::new() };
         eprintln!("{}: {generations} generations on {threads} threads{kept}", folder.display());
         if !self.quiet && generations > 0 {
-            self.bar = ProgressBar::with_draw_target(Some(generations as u64), ProgressDrawTarget::stderr());
-            let template = "{bar:30} {percent:>3} %  {msg}  {eta} left";
-            self.bar.set_style(ProgressStyle::with_template(template).unwrap_or(ProgressStyle::default_bar()));
+            self.bar = run::bar(generations as u64, 0, run::OF_UNITS);
             self.bar.enable_steady_tick(Duration::from_millis(500));
         }
     }
@@ -166,8 +164,8 @@ impl execute::Watch for Progress {
             self.bar.set_message(format!("{done}/{all} generations  best {:.4}", self.best));
         } else if self.told.elapsed() > QUIET {
             self.told = Instant::now();
-            let left = self.began.elapsed().as_secs_f64() * (all as f64 / done as f64 - 1.0);
-            let left = HumanDuration(Duration::from_secs_f64(left));
+            let left = run::time_left(self.began.elapsed(), done as u64, all.saturating_sub(done) as u64);
+            let left = HumanDuration(left.unwrap_or_default());
             eprintln!("generation {done} of {all}, best so far {:.4}, about {left} left", self.best);
         }
     }

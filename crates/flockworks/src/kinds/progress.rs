@@ -102,7 +102,7 @@ impl Watch for Progress {
         let kept = if there > 0 { format!(", {there} are there already") } else { String::new() };
         eprintln!("{}: {units} {what} on {threads} threads{kept}", folder.display());
         if !self.quiet {
-            self.bar = run::bar(units as u64, 0, "{bar:30} {percent:>3} %  {msg}  {left}");
+            self.bar = run::bar(units as u64, 0, run::OF_UNITS);
             self.bar.enable_steady_tick(Duration::from_millis(500));
         }
     }

@@ -5,7 +5,7 @@ use crate::fault::{Fault, wrong};
 use crate::run::{self, INTERRUPTED, PROGRAM, QUIET, RunOptions, rate, text_of};
 use crate::view::ViewOptions;
 use clap::Args;
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget};
 use lab::searched::{Searched, Studied};
 use lab::study::claims::{Judgement, Verdict};
 use lab::study::execute::{self, CELLS, End, REPORT, Selection, TRIALS};
@@ -236,9 +236,9 @@ fn cells(plan: &Plan, text: &str) -> Result<Vec<usize>, Fault> {
             return wrong(format!("--cells takes levels as FACTOR=LEVEL; found `{part}`"));
         };
         let (name, level) = (name.trim(), level.trim().trim_matches('\''));
-        unknown(plan, name, level)?;
         let number = level.parse().ok().filter(|number: &f64| number.is_finite());
         let level = number.map_or_else(|| claims::Level::Text(level.to_owned()), claims::Level::Number);
+        known(plan, name, &level)?;
         only.push((name.to_owned(), level));
     }
     let found: Vec<usize> = plan.parts.iter().flat_map(|part| claims::matching(plan, part, &only)).collect();
@@ -254,27 +254,26 @@ fn cells(plan: &Plan, text: &str) -> Result<Vec<usize>, Fault> {
     Ok(found)
 }
 
-/// Whether a factor and a level of it are in the study.
-fn unknown(plan: &Plan, name: &str, level: &str) -> Result<(), Fault> {
-    let mut own = plan.parts.iter().flat_map(|part| &part.factors).filter(|factor| factor.name == name).peekable();
-    let suggestion = |near: Option<&str>| near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-    if own.peek().is_none() {
-        let names = plan.parts.iter().flat_map(|part| &part.factors).map(|factor| factor.name.as_str());
-        return wrong(format!("--cells: no factor is called `{name}`{}", suggestion(nearest(name, names))));
+/// Refuses a factor that no part has, and a level that it has in none.
+fn known(plan: &Plan, name: &str, level: &claims::Level) -> Result<(), Fault> {
+    let factors = || plan.parts.iter().flat_map(|part| &part.factors);
+    let levels: Vec<_> = factors().filter(|factor| factor.name == name).flat_map(|factor| &factor.levels).collect();
+    if levels.is_empty() {
+        let near = nearest(name, factors().map(|factor| factor.name.as_str()));
+        let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        return wrong(format!("--cells: no factor is called `{name}`{help}"));
     }
-    let levels: Vec<&study::plan::Varied> = own.collect();
-    let number: Option<f64> = level.parse().ok();
-    let levels = || levels.iter().flat_map(|factor| &factor.levels);
-    if levels().any(|other| other.text == level || (number.is_some() && other.number == number)) {
+    if levels.iter().any(|own| level.is(own)) {
         return Ok(());
     }
-    let texts = || levels().map(|level| level.text.as_str());
+    let texts = || levels.iter().map(|own| own.text.as_str());
     // a number is nobody's slip of a key
-    let help = match nearest(level, texts()).filter(|_| number.is_none()) {
+    let near = if let claims::Level::Text(text) = level { nearest(text, texts()) } else { None };
+    let help = match near {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("it has {}", texts().collect::<Vec<_>>().join(", ")),
     };
-    wrong(format!("--cells: `{name}` has no level `{level}`; {help}"))
+    wrong(format!("--cells: `{name}` has no level `{}`; {help}", level.words()))
 }
 
 fn shard(text: &str) -> Result<(usize, usize), Fault> {
@@ -378,9 +377,7 @@ impl execute::Watch for Progress {
         eprintln!("{}: {trials} trials on {threads} threads{kept}", folder.display());
         if !self.quiet && trials > 0 {
             // in thousands of updates, since trials differ in length
-            self.bar = ProgressBar::with_draw_target(Some(updates / 1000), ProgressDrawTarget::stderr());
-            let template = "{bar:30} {percent:>3} %  {msg}  {eta} left";
-            self.bar.set_style(ProgressStyle::with_template(template).unwrap_or(ProgressStyle::default_bar()));
+            self.bar = run::bar(updates / 1000, 0, run::OF_UNITS);
             self.bar.enable_steady_tick(Duration::from_millis(500));
         }
     }
@@ -394,10 +391,9 @@ impl execute::Watch for Progress {
             self.bar.set_message(format!("{done}/{all} trials  {speed}"));
         } else if self.told.elapsed() > QUIET {
             self.told = Instant::now();
-            let share = self.updates.0 as f64 / self.updates.1.max(1) as f64;
-            let left = self.began.elapsed().as_secs_f64() * (1.0 - share) / share.max(1e-9);
-            let left = HumanDuration(Duration::from_secs_f64(left));
-            eprintln!("trial {done} of {all}, {speed}, about {left} left");
+            let (made, to_make) = (self.updates.0, self.updates.1.saturating_sub(self.updates.0));
+            let left = run::time_left(self.began.elapsed(), made, to_make).unwrap_or_default();
+            eprintln!("trial {done} of {all}, {speed}, about {} left", HumanDuration(left));
         }
     }
     fn stopper(&self) -> fn() -> bool {

@@ -8,7 +8,7 @@
 use super::execute::Results;
 use super::expression::{Expression, Mistake, Names, Selector, Value};
 use super::form::{Claim, Figure, Test};
-use super::plan::{Part, Plan, within};
+use super::plan::{self, Part, Plan, within};
 use super::tables::{RESERVED, of_cell};
 use crate::file::{Anything, Desk, Named, Node, Sources, Tree};
 use crate::report::short;
@@ -77,13 +77,10 @@ pub struct Judgement {
 pub fn matching(plan: &Plan, part: &Part, only: &[(String, Level)]) -> Vec<usize> {
     let fits = |&cell: &usize| {
         only.iter().all(|(name, level)| {
-            part.factors.iter().position(|factor| factor.name == *name).is_some_and(|at| {
-                let own = &part.factors[at].levels[plan.cells[cell].levels[at]];
-                match level {
-                    Level::Number(number) => own.number == Some(*number),
-                    Level::Text(text) => own.text == *text,
-                }
-            })
+            part.factors
+                .iter()
+                .position(|factor| factor.name == *name)
+                .is_some_and(|at| level.is(&part.factors[at].levels[plan.cells[cell].levels[at]]))
         })
     };
     part.cells.clone().filter(fits).collect()
@@ -99,6 +96,13 @@ pub enum Level {
 }
 
 impl Level {
+    /// Whether a level of a factor is the one asked for.
+    pub fn is(&self, own: &plan::Level) -> bool {
+        match self {
+            Self::Number(number) => own.number == Some(*number),
+            Self::Text(text) => own.text == *text,
+        }
+    }
     /// As a page has it.
     pub fn words(&self) -> String {
         match self {
@@ -171,11 +175,7 @@ impl Names for Data<'_> {
                 other => Level::Text(other.describe()),
             };
             let own = &self.part.factors[at].levels;
-            let there = own.iter().any(|own| match &level {
-                Level::Number(number) => own.number == Some(*number),
-                Level::Text(text) => own.text == *text,
-            });
-            if !there {
+            if !own.iter().any(|own| level.is(own)) {
                 let levels: Vec<&str> = own.iter().map(|level| level.text.as_str()).collect();
                 let what = format!("`{}` has no such level", selector.factor);
                 let help = format!("it has {}", levels.join(", "));

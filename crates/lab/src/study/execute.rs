@@ -234,7 +234,7 @@ pub fn merge(from: &[PathBuf], out: &Path, program: &str) -> Result<(Plan, usize
     for path in from {
         let manifest = folder::manifest(path)?.unwrap_or(Json::Null);
         let plan = of_folder(path)?;
-        let (_, results) = logged(&path.join(RESULTS), &plan)?;
+        let results = logged(&path.join(RESULTS), &plan)?;
         folders.push((path, manifest, plan, results));
     }
     // cells and trials may have been added to some: the others' are among those of the largest, whatever the order
@@ -290,7 +290,7 @@ pub fn merge(from: &[PathBuf], out: &Path, program: &str) -> Result<(Plan, usize
         }
     }
     drop(log);
-    let (_, results) = logged(&folder.file(RESULTS), &plan)?;
+    let results = logged(&folder.file(RESULTS), &plan)?;
     finish(&folder, &plan, &results, program)?;
     let trials = results.iter().map(BTreeMap::len).sum();
     let left = Selection::default().units(&plan).iter().filter(|(c, trial)| !results[*c].contains_key(trial)).count();
@@ -305,7 +305,7 @@ pub fn report_again(path: &Path, program: &str) -> Result<(), StoreError> {
     let plan = of_folder(path)?;
     let folder = Folder::claim(path)?;
     // without its log there is nothing to make it from, and what was made is better than nothing
-    let (_, results) = logged(&folder.file(RESULTS), &plan)?;
+    let results = logged(&folder.file(RESULTS), &plan)?;
     finish(&folder, &plan, &results, program).map(|_| ())
 }
 
@@ -324,11 +324,10 @@ fn opened(folder: &Folder, plan: &Plan) -> Result<(Log, Results), StoreError> {
     Ok((log, results))
 }
 
-/// The log of a folder, which is only read, with what it holds of the plan's conditions.
-fn logged(path: &Path, plan: &Plan) -> Result<(Log, Results), StoreError> {
+/// What a log, which is only read, holds of the plan's conditions.
+fn logged(path: &Path, plan: &Plan) -> Result<Results, StoreError> {
     let (mut log, records) = Log::open_to_read(path)?;
-    let results = known(&mut log, &records, path, plan)?;
-    Ok((log, results))
+    known(&mut log, &records, path, plan)
 }
 
 /// The study in a folder with what is known of its trials, as one looks at it: nothing is written.
@@ -342,7 +341,7 @@ pub fn look(path: &Path) -> Result<(Plan, Results), StoreError> {
         let nothing = vec![BTreeMap::new(); plan.conditions.len()];
         return Ok((plan, nothing));
     }
-    let (_, results) = logged(&path, &plan)?;
+    let results = logged(&path, &plan)?;
     Ok((plan, results))
 }
 
